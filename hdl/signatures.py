@@ -1,0 +1,63 @@
+"""The payloads of the core's streams, and its status port.
+
+Both streams are raster scans. Markers travel in the payload, so that a frame needs no side channel
+and any stall pattern leaves it intact.
+"""
+
+from amaranth.hdl import unsigned
+from amaranth.lib import data
+
+from softdepth.config import CHANNEL_BITS, CHANNELS, Config
+
+PIXEL_BITS = CHANNELS * CHANNEL_BITS
+COUNTER_BITS = 16
+
+PixelPair = data.StructLayout(
+    {
+        "left": unsigned(PIXEL_BITS),
+        "right": unsigned(PIXEL_BITS),
+        "sof": 1,
+        "eol": 1,
+        "eof": 1,
+    }
+)
+"""Input payload: a rectified pixel pair and its markers.
+
+``left``, ``right`` hold red in the lowest byte, then green, then blue. ``sof`` marks a frame's
+first pixel, ``eol`` a line's last, ``eof`` a frame's last. A source without ``eof`` ties it to 0:
+the core then learns the height from the frame before, and ends the first frame at the next ``sof``.
+"""
+
+
+def result_layout(config: Config) -> data.StructLayout:
+    """Output payload: ``disparity`` in pixels, its `Validity` code, the markers of its own pixel.
+
+    ``damaged`` is set from the first result after a break in the input (a short or long line, a
+    misplaced start of frame) to the frame's end.
+    """
+    return data.StructLayout(
+        {
+            "disparity": unsigned(config.disparity_bits),
+            "code": unsigned(2),
+            "sof": 1,
+            "eol": 1,
+            "eof": 1,
+            "damaged": 1,
+        }
+    )
+
+
+Status = data.StructLayout(
+    {
+        "short_lines": unsigned(COUNTER_BITS),
+        "long_lines": unsigned(COUNTER_BITS),
+        "early_starts": unsigned(COUNTER_BITS),
+        "missing_starts": unsigned(COUNTER_BITS),
+    }
+)
+"""Saturating counters of broken input since reset.
+
+``short_lines``: lines padded to the frame's width with their last pixel. ``long_lines``: lines cut
+to the frame's or the core's width. ``early_starts``: a start of frame before the running frame's
+end. ``missing_starts``: times that pixels outside any frame were dropped.
+"""

@@ -1,0 +1,279 @@
+"""The one configuration of a core: what is computed, and how much hardware computes it.
+
+A `Config` is frozen and validated. Presets come by name, files are TOML, and single keys can be
+overridden (``lanes=8``, ``compensation.reading=off``, ``criteria.0.window=5``). Every width, range
+and reach that the models and the gateware need is a property here, derived from these fields.
+"""
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal, Self, get_args
+
+import tomli_w
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from softdepth.errors import ConfigError
+from softdepth.rules import RuleBaseName
+
+Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
+Reading = Literal["off", "top", "literal"]
+
+CHANNELS = 3
+CHANNEL_BITS = 8
+LITERAL_INPUT = 1000
+"""The value that the compensating rule's literal reading gives every criterion."""
+
+
+class _Frozen(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class Sad(_Frozen):
+    """Criterion: sum of absolute RGB differences over ``window x window`` pixels (eq. 7).
+
+    The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
+    at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T.
+    """
+
+    kind: Literal["sad"] = "sad"
+    window: int = Field(3, ge=1, le=15)
+    dx: int = Field(0, ge=-16, le=16)
+    label_bits: int = Field(12, ge=4, le=20)
+
+    @model_validator(mode="after")
+    def _odd(self) -> Self:
+        if self.window % 2 == 0:
+            raise ValueError(f"window is {self.window}, but a window has a centre: use an odd size")
+        return self
+
+    @property
+    def radius(self) -> int:
+        """Pixels from the window's centre to its edge."""
+        return self.window // 2
+
+    @property
+    def maximum(self) -> int:
+        """The largest value the sum can take."""
+        return self.window**2 * CHANNELS * (2**CHANNEL_BITS - 1)
+
+
+# A further criterion is a further model here, told apart by its `kind`.
+Criterion = Sad
+
+
+class Compensation(_Frozen):
+    """The compensating rule against false near objects (paper, section 4, step 3).
+
+    Candidates with ``d >= min_disparity`` whose 3x3 SAD exceeds ``threshold`` have all criteria
+    replaced: by the top label 2T (``top``, which reproduces the paper's Fig. 4) or by 1000
+    (``literal``).
+    """
+
+    reading: Reading = "off"
+    threshold: int = Field(1200, ge=0)
+    min_disparity: int = Field(32, ge=0)
+
+
+class Config(_Frozen):
+    """A stereo core, complete: method, ranges and parallelism.
+
+    Throughput is one result per `steps` clocks. See ``docs/configuration.md`` for every key.
+    """
+
+    name: str = "custom"
+    disparities: int = Field(64, ge=2, le=256)
+    lanes: int = Field(16, ge=1, le=256)
+    max_width: int = Field(1280, ge=8, le=8192)
+    max_height: int = Field(1080, ge=8, le=8192)
+    reference: Literal["left", "right"] = "left"
+    cost: Literal["fuzzy", "sad"] = "fuzzy"
+    operator: Operator = "mean"
+    rules: RuleBaseName = "printed"
+    membership_bits: int = Field(8, ge=2, le=12)
+    criteria: tuple[Criterion, ...] = Field((Sad(window=3), Sad(window=5), Sad(window=7)), strict=False)
+    compensation: Compensation = Compensation()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.disparities % self.lanes:
+            fits = [n for n in range(1, self.disparities + 1) if self.disparities % n == 0]
+            raise ValueError(
+                f"lanes is {self.lanes}, which does not divide disparities = {self.disparities}:"
+                f" use one of {', '.join(map(str, fits))}"
+            )
+        expected = 3 if self.cost == "fuzzy" else 1
+        if len(self.criteria) != expected:
+            raise ValueError(
+                f"criteria has {len(self.criteria)} entries, but cost = '{self.cost}' takes {expected}"
+            )
+        for criterion in self.criteria:
+            if self.cost == "fuzzy" and criterion.label_bits < self.membership_bits:
+                raise ValueError(
+                    f"membership_bits is {self.membership_bits}, more than label_bits ="
+                    f" {criterion.label_bits}: memberships are the sum shifted right"
+                )
+        if self.max_width < self.min_width or self.max_height < self.min_height:
+            raise ValueError(
+                f"max_width x max_height is {self.max_width} x {self.max_height}, smaller than the"
+                f" window support {self.min_width} x {self.min_height}"
+            )
+        if self.compensation.reading != "off":
+            if self.cost != "fuzzy":
+                raise ValueError("compensation acts on fuzzy inputs: use reading = 'off' with cost = 'sad'")
+            if self.compensation_criterion is None:
+                raise ValueError(
+                    "compensation looks at the centred 3x3 SAD, which is not among the criteria:"
+                    " add {kind = 'sad', window = 3, dx = 0} or use reading = 'off'"
+                )
+        return self
+
+    # -- where configurations come from and go to ------------------------------------------------
+
+    @classmethod
+    def preset(cls, name: str) -> Self:
+        """The preset called `name`; raises `ConfigError` for an unknown one."""
+        if name not in PRESETS:
+            raise ConfigError(f"unknown preset '{name}'", f"use one of {', '.join(PRESETS)}")
+        return cls.from_dict({"name": name, **PRESETS[name]})
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a TOML file; keys left out keep the defaults of the `paper` preset."""
+        try:
+            return cls.from_dict({"name": path.stem, **tomllib.loads(path.read_text())})
+        except (OSError, UnicodeDecodeError) as error:
+            raise ConfigError(f"cannot read configuration '{path}'", "give a readable TOML file") from error
+        except tomllib.TOMLDecodeError as error:
+            raise ConfigError(f"'{path}' is not TOML: {error}", "mend that line") from error
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Validate plain data; raises `ConfigError` naming key, value and remedy."""
+        try:
+            return cls.model_validate({**data})
+        except ValidationError as error:
+            raise _explain(error, cls) from error
+
+    def override(self, assignments: Sequence[str]) -> Self:
+        """A copy with ``key=value`` assignments applied; nested keys are dotted (`criteria.0.window`)."""
+        data = self.model_dump(mode="json")
+        for text in assignments:
+            key, equals, value = text.partition("=")
+            if not equals:
+                raise ConfigError(f"override '{text}' has no '='", "write key=value, for example lanes=8")
+            try:
+                parsed = tomllib.loads(f"v = {value}")["v"]
+            except tomllib.TOMLDecodeError:
+                parsed = value  # a bare word is a string
+            *parents, leaf = key.strip().split(".")
+            node: Any = data
+            try:
+                for part in parents:
+                    node = node[int(part)] if isinstance(node, list) else node[part]
+                if isinstance(node, list):
+                    node[int(leaf)] = parsed
+                else:
+                    node[leaf] = parsed
+            except (KeyError, ValueError, IndexError, TypeError) as error:
+                raise ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(type(self).model_fields)}") from error
+        return self.from_dict(data)
+
+    def to_toml(self) -> str:
+        """The whole configuration as TOML; `load` reads it back unchanged."""
+        return tomli_w.dumps(self.model_dump(mode="json"))
+
+    def save(self, path: Path) -> None:
+        """Write `to_toml` to `path`."""
+        path.write_text(self.to_toml())
+
+    @cached_property
+    def hash(self) -> str:
+        """Twelve hex digits that name everything but `name`: equal hashes build equal cores."""
+        data = self.model_dump(mode="json", exclude={"name"})
+        return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:12]
+
+    # -- derived: parallelism and ranges ---------------------------------------------------------
+
+    @property
+    def steps(self) -> int:
+        """Clocks per pixel: each step evaluates `lanes` candidates."""
+        return self.disparities // self.lanes
+
+    @property
+    def disparity_bits(self) -> int:
+        """Bits of a disparity ``0 .. disparities - 1``."""
+        return (self.disparities - 1).bit_length()
+
+    @property
+    def windows(self) -> tuple[int, ...]:
+        """The distinct SAD window sizes, ascending."""
+        return tuple(sorted({c.window for c in self.criteria}))
+
+    # -- derived: reach of the support around the reference pixel, in pixels ---------------------
+
+    @property
+    def reach_left(self) -> int:
+        """Columns the support extends left of the reference pixel."""
+        return max(0, *(c.radius - c.dx for c in self.criteria))
+
+    @property
+    def reach_right(self) -> int:
+        """Columns the support extends right of the reference pixel."""
+        return max(0, *(c.radius + c.dx for c in self.criteria))
+
+    @property
+    def reach_rows(self) -> int:
+        """Rows the support extends above, and below, the reference pixel."""
+        return max(c.radius for c in self.criteria)
+
+    @property
+    def min_width(self) -> int:
+        """The narrowest legal frame: one full support."""
+        return self.reach_left + 1 + self.reach_right
+
+    @property
+    def min_height(self) -> int:
+        """The lowest frame with a result: one full support. Lower frames yield border codes only."""
+        return 2 * self.reach_rows + 1
+
+    # -- derived: numbers of the fuzzy stage -----------------------------------------------------
+
+    @property
+    def one(self) -> int:
+        """The membership value that stands for 1.0."""
+        return 1 << self.membership_bits
+
+    @property
+    def compensation_criterion(self) -> int | None:
+        """Index of the centred 3x3 SAD that the compensating rule looks at, if there is one."""
+        found = [i for i, c in enumerate(self.criteria) if (c.window, c.dx) == (3, 0)]
+        return found[0] if found else None
+
+
+def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
+    """The first validation error as one line with key, value and remedy."""
+    first = error.errors(include_url=False)[0]
+    key = ".".join(str(part) for part in first["loc"])
+    if first["type"] == "extra_forbidden":
+        return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(model.model_fields)}")
+    message = first["msg"].removeprefix("Value error, ")
+    if key:
+        return ConfigError(f"{key} = {first['input']!r} is not valid", message[0].lower() + message[1:])
+    problem, _, remedy = message.partition(": ")
+    return ConfigError(problem, remedy or "change one of the two")
+
+
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {},
+    "lite": {
+        "criteria": [{"window": 3, "dx": dx} for dx in (-2, 0, 2)],
+    },
+    "sad": {"cost": "sad", "criteria": [{"window": 3}]},
+}
+"""What each preset changes in the defaults: the paper's nest, a small core, and the plain baseline."""
+
+OPERATORS: tuple[Operator, ...] = get_args(Operator)

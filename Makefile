@@ -1,0 +1,79 @@
+# Every task of the project; `make` lists them. All of it runs in .venv, made on first use.
+
+PYTHON ?= python3
+PRESET ?= paper
+TESTS ?=
+
+VENV := .venv
+BIN := $(VENV)/bin
+LOCKED := $(VENV)/.locked
+READY := $(VENV)/.ready
+SOURCES := softdepth golden hdl sim tests
+DEMO := out/motorcycle
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help demo test test-fast bench lint format types lock export readme clean distclean preflight
+
+help: ## list these tasks
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/motorcycle
+	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) -o $(DEMO)
+	@echo "left, right and depth: $(CURDIR)/$(DEMO)/overview.png"
+
+test: $(READY) ## the whole test suite (a part of it: make test TESTS=tests/golden)
+	@$(BIN)/pytest -n auto $(TESTS)
+
+test-fast: $(READY) ## the tests that take seconds
+	@$(BIN)/pytest -n auto -m "not slow" $(TESTS)
+
+bench: $(READY) ## measure speed and write docs/benchmarks.md
+	@$(BIN)/softdepth bench
+
+lint: $(READY) ## style, likely bugs and formatting
+	@$(BIN)/ruff check $(SOURCES)
+	@$(BIN)/ruff format --check $(SOURCES)
+
+format: $(READY) ## format the sources in place
+	@$(BIN)/ruff check --fix $(SOURCES)
+	@$(BIN)/ruff format $(SOURCES)
+
+# The folders map to import names through setuptools, which pyright does not see: it gets a view of
+# the package as it is installed.
+VIEW := build/types/softdepth
+types: $(READY) ## static types
+	@rm -rf $(VIEW) && mkdir -p $(VIEW)
+	@ln -s $(CURDIR)/softdepth/* $(CURDIR)/golden $(CURDIR)/hdl $(CURDIR)/sim $(VIEW)
+	@$(BIN)/pyright --pythonpath $(BIN)/python
+
+lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgrade)
+	@$(BIN)/uv pip compile pyproject.toml --group dev --group build --universal --python-version 3.11 \
+		--generate-hashes --no-emit-index-url --no-annotate --quiet \
+		--custom-compile-command "make lock" --output-file requirements.lock $(ARGS)
+
+export: $(READY) ## the core as Verilog: out/softdepth_$(PRESET).v (make export PRESET=lite)
+	@mkdir -p out
+	@$(BIN)/softdepth export --preset $(PRESET) -o out/softdepth_$(PRESET).v
+
+readme: demo ## renew the figures and the picture in README.md from the demo's results
+	@$(BIN)/python -m softdepth.readme $(DEMO)
+
+clean: ## remove builds and results
+	rm -rf build dist out .pytest_cache .ruff_cache *.egg-info
+	find $(SOURCES) -name __pycache__ -prune -exec rm -rf {} +
+
+distclean: clean ## remove the environment as well
+	rm -rf $(VENV)
+
+preflight:
+	@scripts/preflight.sh $(PYTHON)
+
+$(LOCKED): requirements.lock | preflight
+	@echo "making $(VENV) from requirements.lock"
+	@scripts/venv.sh $(VENV) $(PYTHON)
+	@touch $@
+
+$(READY): $(LOCKED) pyproject.toml | preflight
+	@$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@

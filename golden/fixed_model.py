@@ -1,0 +1,206 @@
+"""The fixed-point model: what the gateware computes, bit for bit. This file is its specification.
+
+For every pixel and candidate d, in exact integer arithmetic:
+
+1. Criteria ``s_1 .. s_3``: sums over their windows (`criteria.evaluate`).
+2. Compensating rule, if it is on and fires: all ``s_i`` are replaced (`criteria.compensate`).
+3. Memberships, labels at 0, T and 2T with ``T = 2**label_bits``, and ``one = 2**membership_bits``:
+   ``u = min(s, 2T) >> (label_bits - membership_bits)``,
+   ``A1 = max(one - u, 0)``, ``A2 = one - |u - one|``, ``A3 = max(u - one, 0)``.
+4. Conclusions ``Y_k = max over the rules of conclusion k of Theta(A_a1, A_b2, A_c3)``.
+5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
+6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
+   so far when ``N * S_best < N_best * S``.
+
+Which candidates and pixels take part is `borders.validity_codes`' and `candidates.Band`'s matter.
+With ``cost = "sad"`` steps 2 to 5 fall away: N is the first criterion, S is 1.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softdepth.config import LITERAL_INPUT, Config, Criterion
+from softdepth.errors import ConfigError, InputError
+from softdepth.golden.borders import validity_codes
+from softdepth.golden.candidates import band, bands
+from softdepth.golden.criteria import Values, compensate
+from softdepth.golden.inference import Memberships, Theta, conclusions
+from softdepth.golden.maps import DisparityMap
+from softdepth.golden.pair import Image, check_pair, check_pixel
+from softdepth.golden.views import column_in_core_view, from_core_view, to_core_view
+from softdepth.rules import CONCLUSIONS, weight
+from softdepth.validity import Validity
+
+Integers = NDArray[np.signedinteger[Any]]
+
+
+class FixedOperator(NamedTuple):
+    """Theta in integers, and the largest strength it can give, as a multiple of `one`."""
+
+    theta: Theta
+    ceiling: int
+
+
+OPERATORS: Mapping[str, FixedOperator] = {
+    "min": FixedOperator(lambda a, b, c: np.minimum(np.minimum(a, b), c), 1),
+    # The mean's 1/3 is left out: it divides N and S alike.
+    "mean": FixedOperator(lambda a, b, c: a + b + c, 3),
+}
+"""The operators that have a fixed-point form; prod, soft_min_1 and soft_min_2 have none yet."""
+
+
+def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
+    """The gateware's result for one frame: HxWx3 uint8 images of one shape in, an HxW map out.
+
+    Raises `InputError` for unusable images, or images wider than `config.max_width`, and
+    `ConfigError` for an operator without a fixed-point form.
+    """
+    _check(left, right, config)
+    reference, other = to_core_view(left, right, config)
+    height, width, _ = reference.shape
+    disparities = np.zeros((height, width), np.uint16)
+    for part in bands(reference, other, config):
+        winner = disparities[part.rows, part.columns]
+        best_n = best_s = None
+        for d, criteria in part.candidates():
+            n, s = fraction(config, d, criteria)
+            if best_n is None or best_s is None:  # d = 0, which every pixel has
+                best_n, best_s = n, s
+                continue
+            better = n * best_s[:, d:] < best_n[:, d:] * s
+            np.copyto(best_n[:, d:], n, where=better)
+            np.copyto(best_s[:, d:], s, where=better)
+            winner[:, d:][better] = d
+    return from_core_view(DisparityMap(disparities, validity_codes(height, width, config)), config)
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """What the core holds while it judges one pixel; row d of every array is candidate d.
+
+    Members
+    -------
+    criteria : candidates x criteria, the sums as measured.
+    inputs : the same after the compensating rule.
+    memberships : candidates x criteria x 3, low to high.
+    conclusions : candidates x 11, ``Y_1`` first.
+    numerator, denominator : one per candidate, N and S.
+    disparity, code : the pixel's result.
+
+    Excluded candidates have no row: a border pixel has none at all. With ``cost = "sad"``
+    memberships and conclusions are empty.
+    """
+
+    criteria: NDArray[np.int64]
+    inputs: NDArray[np.int64]
+    memberships: NDArray[np.int64]
+    conclusions: NDArray[np.int64]
+    numerator: NDArray[np.int64]
+    denominator: NDArray[np.int64]
+    disparity: int
+    code: Validity
+
+    def __str__(self) -> str:
+        """A table: one line per candidate."""
+        lines = [f"disparity {self.disparity} ({self.code.name})", "d: criteria -> inputs | Y_1..Y_11 | N/S"]
+        rows = zip(
+            self.criteria, self.inputs, self.conclusions, self.numerator, self.denominator, strict=True
+        )
+        lines += [f"{d}: {c} -> {i} | {y} | {n}/{s}" for d, (c, i, y, n, s) in enumerate(rows)]
+        return "\n".join(lines)
+
+
+def trace(left: Image, right: Image, config: Config, x: int, y: int) -> Trace:
+    """Every intermediate quantity of the pixel (x, y) of the reference view, to debug gateware by.
+
+    Errors as in `disparity`; `InputError` also for a pixel outside the image.
+    """
+    _check(left, right, config)
+    check_pixel(left, x, y)
+    reference, other = to_core_view(left, right, config)
+    height, width, _ = reference.shape
+    x = column_in_core_view(x, width, config)
+    code = Validity(int(validity_codes(height, width, config)[y, x]))
+    rows: dict[str, list[Any]] = {f.name: [] for f in fields(Trace) if f.name not in ("disparity", "code")}
+    winner = 0
+    if code < Validity.BORDER:
+        column = x - config.reach_left
+        for d, block in band(reference, other, config, y, y + 1).candidates():
+            if d > column:
+                break
+            criteria = [values[:, column - d : column - d + 1] for values in block]
+            inputs = compensated(config, d, criteria)
+            degrees = [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
+            fuzzy = config.cost == "fuzzy"
+            y_k = conclusions(degrees, OPERATORS[config.operator].theta, config.rules) if fuzzy else ()
+            n, s = fraction(config, d, criteria)
+            rows["criteria"].append([v.item() for v in criteria])
+            rows["inputs"].append([v.item() for v in inputs])
+            rows["memberships"].append([[a.item() for a in triple] for triple in degrees if fuzzy])
+            rows["conclusions"].append([value.item() for _, value in y_k])
+            rows["numerator"].append(n.item())
+            rows["denominator"].append(s.item())
+            if n.item() * rows["denominator"][winner] < rows["numerator"][winner] * s.item():
+                winner = d
+    return Trace(**{name: np.array(v, np.int64) for name, v in rows.items()}, disparity=winner, code=code)
+
+
+def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, Integers]:
+    """Steps 2 to 5: numerator N and denominator S > 0 of a candidate's cost.
+
+    Both come in a type that holds the products of any two candidates.
+    """
+    if config.cost == "sad":
+        return criteria[0], np.ones_like(criteria[0])
+    theta, ceiling = OPERATORS[config.operator]
+    strongest = ceiling * config.one
+    n_max = strongest * sum(weight(k) for k in range(1, CONCLUSIONS + 1))
+    s_max = strongest * CONCLUSIONS
+    n = np.zeros(criteria[0].shape, integer(n_max * s_max))
+    s = np.zeros_like(n)
+    inputs = compensated(config, d, criteria)
+    degrees = [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
+    for k, y_k in conclusions(degrees, theta, config.rules):
+        n += np.multiply(y_k, weight(k), dtype=n.dtype)
+        s += y_k
+    return n, s
+
+
+def compensated(config: Config, d: int, criteria: list[Values]) -> list[Values]:
+    """Step 2: replaced criteria become 2T, their own top label, or 1000 in the literal reading."""
+    literal = config.compensation.reading == "literal"
+    return compensate(
+        config, d, criteria, [LITERAL_INPUT if literal else 2 << c.label_bits for c in config.criteria]
+    )
+
+
+def memberships(criterion: Criterion, values: Values, config: Config) -> Memberships:
+    """Step 3: low, middle and high membership, each ``0 .. one``; their sum is `one`."""
+    one = config.one
+    shift = criterion.label_bits - config.membership_bits
+    u = np.minimum(values, 2 << criterion.label_bits) >> shift
+    u = u.astype(integer(3 * one))  # u ends at 2*one; the operator `mean` sums to 3*one
+    return np.maximum(one - u, 0), one - np.abs(u - one), np.maximum(u - one, 0)
+
+
+def integer(maximum: int) -> np.dtype[Any]:
+    """The smallest signed type that holds ``-maximum .. maximum``."""
+    return np.min_scalar_type(-maximum - 1)
+
+
+def _check(left: Image, right: Image, config: Config) -> None:
+    check_pair(left, right)
+    width = left.shape[1]
+    if width > config.max_width:
+        raise InputError(
+            f"the images are {width} pixels wide, the core is built for max_width = {config.max_width}",
+            f"use max_width = {width} or more, or smaller images",
+        )
+    if config.cost == "fuzzy" and config.operator not in OPERATORS:
+        raise ConfigError(
+            f"operator '{config.operator}' has no fixed-point form", f"use one of {', '.join(OPERATORS)}"
+        )

@@ -1,0 +1,123 @@
+"""The paper's method in floating point (Bobyr et al. 2021), with the core's border rule."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softdepth.config import LITERAL_INPUT, Config
+from softdepth.errors import ConfigError
+from softdepth.golden.borders import validity_codes
+from softdepth.golden.candidates import band, bands
+from softdepth.golden.criteria import Values, compensate
+from softdepth.golden.inference import conclusions
+from softdepth.golden.maps import DisparityMap
+from softdepth.golden.operators import operator
+from softdepth.golden.pair import Image, check_pair, check_pixel
+from softdepth.golden.views import column_in_core_view, from_core_view, to_core_view
+from softdepth.rules import weight
+from softdepth.validity import Validity
+
+Array = NDArray[np.float64]
+
+
+def disparity(
+    left: Image,
+    right: Image,
+    config: Config,
+    *,
+    label: float = 5000.0,
+    delta: float = 0.05,
+    k: float = -100.0,
+) -> DisparityMap:
+    """Disparity of every pixel: ``argmin over d of cost(d)`` (eq. 11), the smallest d on a tie.
+
+    Parameters
+    ----------
+    left, right : rectified pair, HxWx3 uint8, of one shape.
+    config : the method. Its number formats (`label_bits`, `membership_bits`) do not apply here.
+    label : T, the middle label of every criterion's memberships (eq. 9).
+    delta, k : softness of the operators `soft_min_1` (eq. 5) and `soft_min_2` (eq. 6).
+
+    Costs that are equal in exact arithmetic may differ in their last bit here, and then no tie is
+    seen. The fixed model has no such doubt.
+
+    Raises `InputError` for unusable images and `ConfigError` for parameters outside their range.
+    """
+    check_pair(left, right)
+    cost = _cost_function(config, label, delta, k)
+    reference, other = to_core_view(left, right, config)
+    height, width, _ = reference.shape
+    disparities = np.zeros((height, width), np.uint16)
+    for part in bands(reference, other, config):
+        best = np.full(part.shape, np.inf)
+        winner = disparities[part.rows, part.columns]
+        for d, criteria in part.candidates():
+            costs_d = cost(d, criteria)
+            better = costs_d < best[:, d:]
+            np.copyto(best[:, d:], costs_d, where=better)
+            winner[:, d:][better] = d
+    return from_core_view(DisparityMap(disparities, validity_codes(height, width, config)), config)
+
+
+def costs(
+    left: Image,
+    right: Image,
+    config: Config,
+    x: int,
+    y: int,
+    *,
+    label: float = 5000.0,
+    delta: float = 0.05,
+    k: float = -100.0,
+) -> Array:
+    """The cost curve of one pixel of the reference view: `disparities` costs, inf where excluded.
+
+    Parameters and errors as in `disparity`; `InputError` also for a pixel outside the image. In the
+    border every candidate is excluded.
+    """
+    check_pair(left, right)
+    check_pixel(left, x, y)
+    cost = _cost_function(config, label, delta, k)
+    reference, other = to_core_view(left, right, config)
+    height, width, _ = reference.shape
+    x = column_in_core_view(x, width, config)
+    curve = np.full(config.disparities, np.inf)
+    if validity_codes(height, width, config)[y, x] < Validity.BORDER:
+        column = x - config.reach_left
+        for d, criteria in band(reference, other, config, y, y + 1).candidates():
+            if d <= column:
+                curve[d] = cost(d, criteria)[0, column - d]
+    return curve
+
+
+def memberships(s: NDArray[np.generic], label: float) -> tuple[Array, Array, Array]:
+    """Eq. 9: low, middle and high membership of dissimilarity `s`, labels at 0, T and 2T.
+
+    Beyond 2T, where the printed formulas leave 0..1, `s` saturates.
+    """
+    t = np.minimum(s, 2 * label) / label
+    return np.maximum(1 - t, 0), 1 - np.abs(t - 1), np.maximum(t - 1, 0)
+
+
+def _cost_function(
+    config: Config, label: float, delta: float, k: float
+) -> Callable[[int, list[Values]], Array]:
+    """The function from a candidate and its criteria to its cost (eq. 10)."""
+    if not 0 < label < np.inf:
+        raise ConfigError(f"label is {label}", "use a positive number; the paper has 5000")
+    theta = operator(config.operator, delta=delta, k=k)
+    replacement = {"top": 2 * label, "literal": LITERAL_INPUT}.get(config.compensation.reading, 0)
+
+    def fuzzy(d: int, criteria: list[Values]) -> Array:
+        s = compensate(config, d, criteria, [replacement] * len(criteria))
+        numerator, denominator = np.zeros(s[0].shape), np.zeros(s[0].shape)
+        for index, y_k in conclusions([memberships(s_i, label) for s_i in s], theta, config.rules):
+            numerator += y_k * weight(index)
+            denominator += y_k
+        return numerator / denominator
+
+    def sad(d: int, criteria: list[Values]) -> Array:
+        return criteria[0].astype(np.float64)
+
+    return sad if config.cost == "sad" else fuzzy

@@ -1,0 +1,1 @@
+"""Running gateware: Verilator builds, cocotb drivers and monitors, seeded stalls."""

@@ -1,0 +1,171 @@
+"""Verilog into a simulation program, once for each design.
+
+Verilator may only optimise what nobody looks at. cocotb's runner makes every signal visible, which
+costs several times the speed, so that this module calls Verilator itself and shows cocotb the top
+ports alone.
+"""
+
+import fcntl
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+import cocotb
+import cocotb_tools.config
+import platformdirs
+
+from softdepth.errors import ToolError
+from softdepth.sim.toolchain import Toolchain, find_toolchain
+
+TOP = "softdepth_core"
+"""Module and program name of every simulated design."""
+
+INPUTS = ("clk", "rst", "i__valid", "i__payload", "o__ready")
+OUTPUTS = ("i__ready", "o__valid", "o__payload", "status")
+
+VERILATOR_FLAGS = (
+    *("--cc", "--exe", "--vpi", "--no-timing", "--top-module", TOP, "--prefix", "Vtop", "-o", TOP),
+    *("--timescale", "1ns/1ns"),
+    *("-O3", "--x-assign", "fast", "--x-initial", "fast", "--no-assert"),
+    # Amaranth's Verilog is checked by Amaranth; the style of generated text is nobody's concern.
+    *("-Wno-lint", "-Wno-style"),
+)
+MAKE_FLAGS = ("OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
+LOG_TAIL_LINES = 4
+
+
+@dataclass(frozen=True)
+class Build:
+    """A simulation program: its folder, whether it was there before, and the seconds it took."""
+
+    folder: Path
+    cached: bool
+    seconds: float
+
+
+def cache_folder() -> Path:
+    """Where builds are kept: ``$SOFTDEPTH_CACHE``, or the user's cache folder."""
+    return Path(os.environ.get("SOFTDEPTH_CACHE") or platformdirs.user_cache_dir("softdepth")).absolute()
+
+
+def build(verilog: str, *, waves: bool = False) -> Build:
+    """Build a design whose top module is `TOP` with the core's ports, or take it from the cache.
+
+    With `waves` the program can record every signal, and runs slower. Builds at the same time are
+    safe: the second waits for the first. Raises `ToolError` for a missing tool or a failed build.
+    """
+    start = time.monotonic()
+    tools = find_toolchain()
+    flags = (*VERILATOR_FLAGS, *(("--trace",) if waves else ()))
+    settings = (*flags, *MAKE_FLAGS, _visible_ports(), *_versions(tools))
+    runtime = cache_folder() / "runtime" / _digest(settings)
+    folder = cache_folder() / "sim" / _digest((verilog, *settings))
+    with _locked(folder):
+        cached = (folder / TOP).exists()
+        if not cached:
+            _build(verilog, flags, tools, folder, runtime)
+    return Build(folder, cached, time.monotonic() - start)
+
+
+def _build(verilog: str, flags: Sequence[str], tools: Toolchain, folder: Path, runtime: Path) -> None:
+    log_path = folder.with_suffix(".log")
+    # make refuses paths with spaces, which a user's cache folder may have.
+    with tempfile.TemporaryDirectory(prefix="softdepth-") as name, log_path.open("w") as log:
+        work = Path(name)
+        (work / "top.v").write_text(verilog)
+        (work / "ports.vlt").write_text(_visible_ports())
+        libraries = cocotb_tools.config.libs_dir
+        main = cocotb_tools.config.share_dir / "lib" / "verilator" / "verilator.cpp"
+        link = f"-Wl,-rpath,{libraries} -L{libraries} -lcocotbvpi_verilator"
+        verilate = [tools.verilator, *flags, "--Mdir", "obj", "-LDFLAGS", link, main, "ports.vlt", "top.v"]
+        _run(verilate, work, tools, log)
+        objects = work / "obj"
+        _reuse_runtime(runtime, objects)
+        jobs = f"-j{os.cpu_count() or 1}"
+        compile_ = [tools.make, jobs, "-C", "obj", "-f", "Vtop.mk", *MAKE_FLAGS, *tools.make_variables]
+        _run(compile_, work, tools, log)
+        _keep(runtime, objects.glob("verilated*.o"))
+        _keep(folder, [objects / TOP, work / "top.v"])
+
+
+def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: TextIO) -> None:
+    log.write(f"$ {' '.join(map(str, command))}\n")
+    log.flush()
+    done = subprocess.run(
+        [str(part) for part in command],
+        cwd=folder,
+        env=dict(tools.environment),
+        stdout=log,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        check=False,
+    )
+    if done.returncode:
+        errors = [line for line in Path(log.name).read_text().splitlines() if "rror" in line]
+        reason = errors[0] if errors else f"exit status {done.returncode}"
+        raise ToolError(f"building the simulation failed: {reason}", f"see {log.name}")
+
+
+def _visible_ports() -> str:
+    """A Verilator control file that shows cocotb the ports and nothing else."""
+    lines = [f'public_flat_rw -module "{TOP}" -var "{port}"' for port in INPUTS]
+    lines += [f'public_flat_rd -module "{TOP}" -var "{port}"' for port in OUTPUTS]
+    return "\n".join(["`verilator_config", *lines, ""])
+
+
+def _versions(tools: Toolchain) -> tuple[str, ...]:
+    """Everything outside the design that a program is linked with or built by."""
+    libraries = str(cocotb_tools.config.libs_dir)
+    abi = sys.implementation.cache_tag
+    return tools.verilator_version, tools.compiler_version, cocotb.__version__, libraries, abi
+
+
+def _digest(texts: Sequence[str]) -> str:
+    return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:20]
+
+
+def _reuse_runtime(runtime: Path, objects: Path) -> None:
+    """Verilator's own library is the same in every design, and most of a small build's time."""
+    for path in runtime.glob("*.o"):
+        shutil.copyfile(path, objects / path.name)  # a fresh date, so that make takes it
+
+
+def _keep(folder: Path, files: Iterator[Path] | Sequence[Path]) -> None:
+    """Copy `files` into a new `folder` that appears complete or not at all."""
+    if folder.exists():
+        return
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    part = Path(tempfile.mkdtemp(prefix=".part-", dir=folder.parent))
+    try:
+        for path in files:
+            shutil.copy2(path, part / path.name)
+        part.rename(folder)
+    except OSError:
+        if not folder.exists():  # another process may have been first, which is as good
+            raise
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        lock = folder.with_suffix(".lock").open("w")
+    except OSError as error:
+        raise ToolError(
+            f"cannot write the cache '{folder.parent}': {error.strerror}",
+            "set SOFTDEPTH_CACHE to a folder you may write to",
+        ) from error
+    with lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,125 @@
+"""What the host and the simulator's bench tell each other: a job, and the record of its run."""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softdepth.sim.stalls import Pauses, Stalls
+
+JOB_VARIABLE = "SOFTDEPTH_SIM_JOB"
+"""Environment variable that holds the path of the bench's job."""
+
+PROGRESS_SUFFIX = ".progress"
+RECORD_SUFFIX = ".record.npz"
+
+
+class Violation(NamedTuple):
+    """A stream rule that the core broke, and the clock at which it shows."""
+
+    cycle: int
+    rule: str
+
+
+@dataclass(frozen=True)
+class Job:
+    """A run of the bench.
+
+    Members
+    -------
+    transfers : uint64 input payloads.
+    stalls : of the source and the sink.
+    resets : the core is reset when this many transfers have been taken.
+    gaps : idle clocks of the source, by the number of transfers taken before them.
+    expected : results since the last reset after which the run is complete, or None: run until quiet.
+    settle : clocks that a complete run goes on, to catch surplus results.
+    patience : clocks without any transfer, though both sides are willing, after which the run stops.
+    """
+
+    transfers: NDArray[np.uint64]
+    stalls: Stalls = Stalls()
+    resets: tuple[int, ...] = ()
+    gaps: Mapping[int, int] = field(default_factory=dict)
+    expected: int | None = None
+    settle: int = 500
+    patience: int = 20_000
+
+    def save(self, path: Path) -> None:
+        """Write to an npz file."""
+        plain = {
+            "stalls": asdict(self.stalls),
+            "resets": self.resets,
+            "gaps": list(self.gaps.items()),
+            "expected": self.expected,
+            "settle": self.settle,
+            "patience": self.patience,
+        }
+        np.savez(path, transfers=self.transfers, plain=np.array(json.dumps(plain)))
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read what `save` wrote."""
+        with np.load(path) as file:
+            plain = json.loads(str(file["plain"]))
+            transfers = file["transfers"]
+        stalls = Stalls(**{side: Pauses(**pauses) for side, pauses in plain.pop("stalls").items()})
+        resets, gaps = tuple(plain.pop("resets")), dict(plain.pop("gaps"))
+        return cls(transfers, stalls, resets, gaps, **plain)
+
+
+@dataclass(frozen=True)
+class Record:
+    """What happened in a run; cycles are counted in clocks from the bench's start.
+
+    Members
+    -------
+    payloads, cycles : of each result, the packed value and the clock that took it.
+    epochs : of each result, how many of the job's resets came before it.
+    taken : the clock at which the core took each transfer.
+    status : the packed status port at the end.
+    violations : broken stream rules, the first hundred.
+    clocks : length of the run.
+    complete : whether the expected results came; False when patience ran out.
+    """
+
+    payloads: NDArray[np.uint64]
+    cycles: NDArray[np.int64]
+    epochs: NDArray[np.int64]
+    taken: NDArray[np.int64]
+    status: int
+    violations: tuple[Violation, ...]
+    clocks: int
+    complete: bool
+
+    def save(self, path: Path) -> None:
+        """Write to an npz file, which appears whole or not at all."""
+        plain = {
+            "status": self.status,
+            "violations": self.violations,
+            "clocks": self.clocks,
+            "complete": self.complete,
+        }
+        part = path.with_suffix(".part")
+        with part.open("wb") as file:
+            np.savez(
+                file,
+                payloads=self.payloads,
+                cycles=self.cycles,
+                epochs=self.epochs,
+                taken=self.taken,
+                plain=np.array(json.dumps(plain)),
+            )
+        os.replace(part, path)
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read what `save` wrote."""
+        with np.load(path) as file:
+            plain = json.loads(str(file["plain"]))
+            plain["violations"] = tuple(Violation(*pair) for pair in plain["violations"])
+            return cls(**{name: file[name] for name in ("payloads", "cycles", "epochs", "taken")}, **plain)

@@ -1,0 +1,119 @@
+"""Run transfers through a simulated design and collect what comes out."""
+
+import shutil
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from cocotb_tools.runner import get_runner
+
+from softdepth.errors import ToolError
+from softdepth.sim.build import TOP, build
+from softdepth.sim.job import JOB_VARIABLE, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
+
+Progress = Callable[[int], None]
+"""Called now and then, from another thread, with the number of results so far."""
+
+POLL_SECONDS = 0.2
+LOG_TAIL_LINES = 3
+
+
+@dataclass(frozen=True)
+class StreamResult(Record):
+    """A `Record`, with the wall-clock seconds of the build and of the run.
+
+    Members
+    -------
+    seconds_build : zero or nearly, where `cached`.
+    seconds_sim : of the simulation, with the start of Python inside it.
+    """
+
+    seconds_build: float
+    seconds_sim: float
+    cached: bool
+
+    @property
+    def clocks_per_second(self) -> float:
+        """Simulated clocks in a second of wall-clock time."""
+        return self.clocks / self.seconds_sim
+
+
+def run_stream(
+    verilog: str, job: Job, *, progress: Progress | None = None, waves: Path | None = None
+) -> StreamResult:
+    """Build `verilog` (or take it from the cache) and run `job`.
+
+    `waves` names a VCD file to write. Raises `ToolError` for a missing tool, a failed build or a
+    simulator that stops without a record. A run that is not complete, or that broke a stream rule, is
+    a result like any other: see `Record`.
+    """
+    program = build(verilog, waves=waves is not None)
+    folder = Path(tempfile.mkdtemp(prefix="softdepth-sim-"))
+    path = folder / "job.npz"
+    job.save(path)
+    start = time.monotonic()
+    with _reports(path.with_suffix(PROGRESS_SUFFIX), progress):
+        failure = _simulate(program.folder, folder, path, waves is not None)
+    seconds = time.monotonic() - start
+    record_path = path.with_suffix(RECORD_SUFFIX)
+    if failure is not None or not record_path.exists():
+        raise ToolError(f"the simulator stopped: {_tail(folder / 'log')}", f"see {folder / 'log'}")
+    record = Record.load(record_path)
+    if waves is not None:
+        shutil.move(folder / "dump.vcd", waves)
+    shutil.rmtree(folder, ignore_errors=True)
+    return StreamResult(
+        **vars(record), seconds_build=program.seconds, seconds_sim=seconds, cached=program.cached
+    )
+
+
+def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> BaseException | None:
+    """Start the program with the bench; returns what cocotb's runner made of a failure."""
+    try:
+        get_runner("verilator").test(
+            test_module="softdepth.sim.bench",
+            hdl_toplevel=TOP,
+            hdl_toplevel_lang="verilog",
+            build_dir=program,
+            test_dir=folder,
+            results_xml=str(folder / "results.xml"),
+            log_file=folder / "log",
+            waves=waves,
+            extra_env={JOB_VARIABLE: str(job)},
+        )
+    except (RuntimeError, SystemExit) as error:
+        return error
+    return None
+
+
+@contextmanager
+def _reports(path: Path, progress: Progress | None) -> Iterator[None]:
+    """Pass the bench's progress on for as long as the body runs."""
+    if progress is None:
+        yield
+        return
+    ended = threading.Event()
+
+    def watch() -> None:
+        while not ended.wait(POLL_SECONDS):
+            try:
+                progress(int(path.read_text()))
+            except (OSError, ValueError):
+                continue  # not there yet, or half written
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        watcher.join()
+
+
+def _tail(log: Path) -> str:
+    lines = log.read_text(errors="replace").splitlines() if log.exists() else []
+    return " / ".join(line.strip() for line in lines[-LOG_TAIL_LINES:]) or "it left no log"

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 import pooch
-import requests
 import skimage.data
 
 from softdepth.errors import InputError
@@ -32,7 +31,7 @@ _SYNTHETIC = re.compile(r"(?P<scene>\w+)(@(?P<width>\d+)x(?P<height>\d+)(x(?P<di
 
 @dataclass(frozen=True)
 class _Middlebury:
-    """One scene: where it is, its truth's gray levels per pixel, and the SHA-256 of each file's pixels."""
+    """A scene: where it is, its truth's gray levels per pixel, and the SHA-256 of each file's pixels."""
 
     url: str
     scale: int
@@ -107,10 +106,7 @@ def _motorcycle(reference: View) -> StereoPair:
     """Middlebury 2014's Motorcycle as scikit-image ships it: 741x500, disparities up to 60."""
     left, right, disparity = skimage.data.stereo_motorcycle()
     disparity = np.where(np.isfinite(disparity), disparity, np.nan)
-    if reference == "right":
-        truth = from_disparity(warp(disparity), other=disparity, view="right")
-    else:
-        truth = from_disparity(disparity)
+    truth = from_disparity(warp(disparity) if reference == "right" else disparity, view=reference)
     return StereoPair(left, right, DEFAULT, truth)
 
 
@@ -123,9 +119,8 @@ def _middlebury(scene: str, reference: View) -> StereoPair:
         # Venus: only the left view's truth is published, so it is moved into the right view.
         disparity["right"] = warp(disparity["left"])
         gray["right"] = np.nan_to_num(disparity["right"] * spec.scale)
-    other = "left" if reference == "right" else "right"
-    confirmed_by = disparity[other] if "disp6" in images or reference == "right" else None
-    truth = from_disparity(disparity[reference], gray=gray[reference], other=confirmed_by, view=reference)
+    other = disparity["left" if reference == "right" else "right"] if "disp6" in images else None
+    truth = from_disparity(disparity[reference], gray=gray[reference], other=other, view=reference)
     return StereoPair(images["im2"], images["im6"], f"middlebury:{scene}", truth)
 
 
@@ -164,7 +159,7 @@ def _download(scene: str, file: str) -> Path:
             path=cache,
             downloader=pooch.HTTPDownloader(timeout=TIMEOUT),
         )
-    except (requests.RequestException, OSError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise InputError(
             f"cannot download Middlebury's {scene}/{file}: {type(error).__name__}",
             f"set {DATA_VARIABLE} to a folder that has it, or use dataset {DEFAULT}",

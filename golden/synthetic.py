@@ -76,7 +76,7 @@ def generate(
     The right image is the left one moved pixel by pixel, the nearest surface winning a column; what
     only the right view sees gets texture of its own, and no truth there. So ``L(x, y)`` equals
     ``R(x - d, y)`` in every channel wherever both views see the point, and `Truth.nonoccluded` is
-    exact.
+    exact: where a slanted surface is compressed, its occlusions are single columns.
 
     Raises
     ------
@@ -86,7 +86,7 @@ def generate(
         raise InputError(f"unknown synthetic scene '{scene}'", f"use one of {', '.join(SCENES)}")
     _check("width", width, 8, MAX_SIDE)
     _check("height", height, 1, MAX_SIDE)
-    _check("disparities", disparities, MIN_DISPARITIES, MAX_DISPARITIES)
+    _check("disparities", disparities, MIN_DISPARITIES, min(MAX_DISPARITIES, width))
     _check("seed", seed, 0, 2**63 - 1)
     rng = np.random.default_rng(seed)
     disparity, surface = _SCENES[scene](height, width, disparities, rng)

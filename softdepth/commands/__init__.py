@@ -1,0 +1,1 @@
+"""The subcommands. They import what is heavy (OpenCV, Amaranth) only when they run."""

@@ -1,0 +1,71 @@
+"""``softdepth info``: what a configuration amounts to, before anything is built."""
+
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from softdepth import screen
+from softdepth.commands import options
+from softdepth.config import Config
+from softdepth.errors import InputError
+
+
+def info(
+    preset: options.Preset = None,
+    config: options.ConfigFile = None,
+    assignments: options.Assignments = None,
+    lanes: options.Lanes = None,
+    disparities: options.Disparities = None,
+    operator: options.Operator = None,
+    clock: Annotated[
+        float, typer.Option("--clock", metavar="MHZ", help="Clock frequency that your device reaches.")
+    ] = 100.0,
+    width: Annotated[int, typer.Option("--width", metavar="N", help="Columns of a frame.")] = 640,
+    height: Annotated[int, typer.Option("--height", metavar="N", help="Rows of a frame.")] = 480,
+) -> None:
+    """Show widths, latency, memory and speed of a configuration."""
+    chosen = options.configuration(
+        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
+    )
+    _check(chosen, clock, width, height)
+    table = Table("", "", box=None, show_header=False, title=f"{chosen.name} ({chosen.hash})")
+    table.title_justify = "left"
+    for row in facts(chosen, clock, width, height).items():
+        table.add_row(*row)
+    screen.console().print(table)
+
+
+def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
+    """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
+    from softdepth.hdl.core import StereoCore
+    from softdepth.hdl.line_buffer import LineBuffer
+    from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, result_layout
+
+    memory = LineBuffer(2 * PIXEL_BITS, config.min_height, config.max_width).bits
+    cycles = width * height * config.steps
+    return {
+        "candidates": f"{config.disparities}, {config.lanes} per clock",
+        "clocks per pixel": str(config.steps),
+        "window support": f"{config.min_width} x {config.min_height} pixels",
+        "disparity": f"{config.disparity_bits} bits",
+        "input payload": f"{PixelPair.size} bits",
+        "output payload": f"{result_layout(config).size} bits",
+        "latency": f"{StereoCore(config).latency} clocks after the last pixel of its window",
+        "line buffers": f"{memory} bits, {config.min_height - 1} lines of {config.max_width} pixel pairs",
+        "clocks per frame": f"{cycles} at {width}x{height}",
+        "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
+    }
+
+
+def _check(config: Config, clock: float, width: int, height: int) -> None:
+    if not 0 < clock < float("inf"):
+        raise InputError(f"--clock {clock:g} is not a frequency", "give MHz, for example --clock 100")
+    for key, value, low, high in (
+        ("width", width, config.min_width, config.max_width),
+        ("height", height, config.min_height, config.max_height),
+    ):
+        if not low <= value <= high:
+            raise InputError(
+                f"--{key} {value} does not fit the core", f"use {low} to {high}, or --set max_{key}"
+            )

@@ -1,0 +1,85 @@
+"""``python -m softdepth.readme RESULTS``: put a run's figures and picture into README.md.
+
+The figures in the README are measured ones: they are written by this program from ``report.json``, between
+the markers, and by nobody's hand.
+"""
+
+import sys
+from pathlib import Path
+
+from softdepth.errors import InputError, SoftdepthError
+from softdepth.measure import Engine
+from softdepth.report import ENGINES, Report
+
+BEGIN, END = "<!-- figures:begin -->", "<!-- figures:end -->"
+PICTURE = Path("docs/images/motorcycle.png")
+
+_TITLES: dict[Engine, str] = {
+    "rtl": "gateware (simulated)",
+    "fixed": "fixed-point model",
+    "float": "float model of the paper",
+    "sad": "plain SAD 3x3",
+}
+
+
+def figures(report: Report) -> str:
+    """The report as the README shows it; raises `InputError` for a run without gateware or truth."""
+    if report.rtl_mismatches is None or report.metrics["rtl"].bad1 is None:
+        raise InputError(f"the run of {report.pair} has no gateware figures", "run make demo first")
+    rows = []
+    for engine in ENGINES:
+        a = report.metrics[engine]
+        rows.append(
+            f"| {_TITLES[engine]} | {a.bad1:.2f} % | {a.bad2:.2f} % | {a.mae:.2f} px | {a.rmse:.2f} px"
+            f" | {a.paper_rmse:.2f} |"
+        )
+    return "\n".join(
+        [
+            f"Measured on {report.pair}, {report.width}x{report.height}, preset {report.config['name']}"
+            f" (`{report.config_hash}`): **{report.rtl_mismatches} of {report.pixels:,} pixels** differ"
+            f" between gateware and fixed-point model; {report.cycles_per_pixel:.3f} clocks per pixel.",
+            "",
+            "| | bad > 1 px | bad > 2 px | mean error | RMS error | paper's RMSE, gray levels |",
+            "|---|---:|---:|---:|---:|---:|",
+            *rows,
+        ]
+    )
+
+
+def renew(text: str, report: Report) -> str:
+    """`text` with the figures of `report` between the markers; raises `InputError` where they are missing."""
+    before, begin, rest = text.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise InputError("README.md has lost its figure markers", f"put {BEGIN} and {END} around the table")
+    return f"{before}{BEGIN}\n{figures(report)}\n{END}{after}"
+
+
+def main(results: Path, project: Path) -> None:
+    """Renew README.md in `project` from the folder of a run."""
+    from softdepth.golden.writers import write_atomically
+
+    try:
+        report = Report.model_validate_json((results / "report.json").read_text())
+        readme = project / "README.md"
+        renewed = renew(readme.read_text(), report)
+        write_atomically(readme, renewed.encode())
+        (project / PICTURE).parent.mkdir(parents=True, exist_ok=True)
+        _shrink(results / "overview.png", project / PICTURE)
+    except (OSError, ValueError) as error:
+        raise InputError(f"cannot use the results in '{results}': {error}", "run make demo first") from error
+
+
+def _shrink(source: Path, target: Path) -> None:
+    """Copy a picture with 256 colours: a third of the bytes in every clone, and no visible loss."""
+    from PIL import Image
+
+    with Image.open(source) as picture:
+        picture.convert("RGB").quantize(256).save(target, optimize=True)
+
+
+if __name__ == "__main__":
+    try:
+        main(Path(sys.argv[1]), Path.cwd())
+    except SoftdepthError as problem:
+        sys.exit(f"error: {problem}")

@@ -1,0 +1,157 @@
+"""The report of a run: ``report.json``, the files beside it, and the table on the screen.
+
+``docs/report.md`` documents every key. Keys are only ever added; a change of meaning raises `SCHEMA`.
+"""
+
+import json
+import platform
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_args
+
+from pydantic import BaseModel
+from rich.table import Table
+
+from softdepth.config import Config
+from softdepth.measure import Engine, Measurement
+
+if TYPE_CHECKING:
+    from softdepth.golden.images import StereoPair
+
+SCHEMA = 1
+ENGINES: tuple[Engine, ...] = get_args(Engine)
+FILES = ("disparity.png", "disparity.pfm", "colour.png", "overview.png", "error.png", "config.toml")
+"""Everything that a run may write beside ``report.json``."""
+
+
+class Accuracy(BaseModel):
+    """One engine's scores; all None where it was not measured or the truth is unknown."""
+
+    bad1: float | None = None
+    bad2: float | None = None
+    mae: float | None = None
+    rmse: float | None = None
+    nonocc_bad1: float | None = None
+    nonocc_bad2: float | None = None
+    nonocc_mae: float | None = None
+    nonocc_rmse: float | None = None
+    measured_bad1: float | None = None
+    measured_bad2: float | None = None
+    measured_mae: float | None = None
+    measured_rmse: float | None = None
+    paper_rmse: float | None = None
+    density: float | None = None
+
+
+class Report(BaseModel):
+    """``report.json``. None stands for what the chosen engine does not measure."""
+
+    schema_version: int = SCHEMA
+    engine: str
+    pair: str
+    width: int
+    height: int
+    pixels: int
+    notes: list[str]
+    rtl_mismatches: int | None
+    cycles_per_pixel: float | None
+    sim_pixels_per_second: float | None
+    seconds: dict[Engine, float | None]
+    metrics: dict[Engine, Accuracy]
+    config: dict[str, Any]
+    config_hash: str
+    tools: dict[str, str | None]
+
+
+def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> Report:
+    """Score every measured map, and gather what was measured."""
+    from softdepth.golden.metrics import evaluate
+
+    metrics = {engine: Accuracy() for engine in ENGINES}
+    if pair.truth is not None:
+        for engine, found in measurement.maps.items():
+            scores = evaluate(found.disparity, pair.truth, valid=found.valid)
+            metrics[engine] = Accuracy.model_validate(scores.as_dict())
+    mismatches = measurement.mismatches()
+    return Report(
+        engine=measurement.engine,
+        pair=pair.name,
+        width=pair.width,
+        height=pair.height,
+        pixels=pair.width * pair.height,
+        notes=list(pair.notes),
+        rtl_mismatches=None if mismatches is None else len(mismatches),
+        cycles_per_pixel=measurement.cycles_per_pixel,
+        sim_pixels_per_second=measurement.pixels_per_second,
+        seconds={engine: measurement.seconds.get(engine) for engine in ENGINES},
+        metrics=metrics,
+        config=config.model_dump(mode="json"),
+        config_hash=config.hash,
+        tools=_tools("rtl" in measurement.maps),
+    )
+
+
+def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measurement, report: Report) -> None:
+    """Write the maps, the pictures, the configuration and the report of a run into `folder`."""
+    from softdepth.golden import pictures, writers
+
+    result = measurement.result
+    disparity, valid, maximum = result.disparity, result.valid, config.disparities - 1
+    writers.write_disparity_png(folder / "disparity.png", disparity, valid)
+    writers.write_pfm(folder / "disparity.pfm", disparity, valid)
+    writers.write_picture(folder / "colour.png", pictures.colour(disparity, valid, maximum))
+    overview = pictures.triptych(pair.left, pair.right, disparity, valid, maximum)
+    writers.write_atomically(folder / "overview.png", overview)
+    if pair.truth is not None:
+        writers.write_picture(folder / "error.png", pictures.error_picture(disparity, pair.truth, valid))
+    config.save(folder / "config.toml")
+    (folder / "report.json").write_text(json.dumps(report.model_dump(), indent=2) + "\n")
+
+
+def table(report: Report) -> Table:
+    """The report as a user reads it."""
+    table = Table("", "gateware", "fixed", "float", "plain SAD", box=None)
+    table.title, table.title_justify = _title(report), "left"
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for label, key in (
+        ("bad pixels, off by > 1 px", "bad1"),
+        ("bad pixels, off by > 2 px", "bad2"),
+        ("mean absolute error", "mae"),
+        ("RMS error", "rmse"),
+        ("paper's RMSE, gray levels", "paper_rmse"),
+    ):
+        unit = {"bad1": " %", "bad2": " %", "mae": " px", "rmse": " px"}.get(key, "")
+        scores = [getattr(report.metrics[engine], key) for engine in ENGINES]
+        table.add_row(label, *("-" if score is None else f"{score:.2f}{unit}" for score in scores))
+    seconds = [report.seconds[engine] for engine in ENGINES]
+    table.add_row("seconds", *("-" if s is None else f"{s:.1f}" for s in seconds))
+    table.caption, table.caption_justify = _gateware(report), "left"
+    return table
+
+
+def _title(report: Report) -> str:
+    name, digest = report.config["name"], report.config_hash
+    return f"{report.pair}, {report.width}x{report.height} = {report.pixels} pixels; {name} ({digest})"
+
+
+def _gateware(report: Report) -> str:
+    if report.rtl_mismatches is None:
+        return "gateware: not run"
+    return (
+        f"gateware against fixed model: {report.rtl_mismatches} mismatches in {report.pixels} pixels\n"
+        f"{report.cycles_per_pixel:.3f} clock cycles per pixel; "
+        f"{report.sim_pixels_per_second:,.0f} simulated pixels per second"
+    )
+
+
+def _tools(simulated: bool) -> dict[str, str | None]:
+    names = ("softdepth", "numpy", "opencv-python-headless", "amaranth", "cocotb")
+    found: dict[str, str | None] = {"python": platform.python_version(), **{n: version(n) for n in names}}
+    found["verilator"] = found["compiler"] = None
+    if simulated:
+        from softdepth.sim.toolchain import find_toolchain
+
+        toolchain = find_toolchain()
+        found["verilator"], found["compiler"] = toolchain.verilator_version, toolchain.compiler_version
+    return found

@@ -26,7 +26,9 @@ TIMEOUT = 20
 """Seconds that a server may stay silent."""
 
 _SITE = "https://vision.middlebury.edu/stereo/data"
-_SYNTHETIC = re.compile(r"(?P<scene>\w+)(@(?P<width>\d+)x(?P<height>\d+)(x(?P<disparities>\d+))?)?(#(?P<seed>\d+))?")
+_SYNTHETIC = re.compile(
+    r"(?P<scene>\w+)(@(?P<width>\d+)x(?P<height>\d+)(x(?P<disparities>\d+))?)?(#(?P<seed>\d+))?"
+)
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,11 @@ def _motorcycle(reference: View) -> StereoPair:
 def _middlebury(scene: str, reference: View) -> StereoPair:
     spec = _MIDDLEBURY[scene]
     images = {Path(file).stem: _fetch(scene, file) for file in spec.pixels}
-    gray = {view: images[stem][:, :, 0] for view, stem in (("left", "disp2"), ("right", "disp6")) if stem in images}
+    gray = {
+        view: images[stem][:, :, 0]
+        for view, stem in (("left", "disp2"), ("right", "disp6"))
+        if stem in images
+    }
     disparity = {view: np.where(g > 0, g / spec.scale, np.nan).astype(np.float32) for view, g in gray.items()}
     if "right" not in gray:
         # Venus: only the left view's truth is published, so it is moved into the right view.
@@ -128,10 +134,14 @@ def _fetch(scene: str, file: str) -> np.ndarray:
     """One Middlebury file's pixels: RGB for an image, one channel for a truth."""
     folder = os.environ.get(DATA_VARIABLE)
     path = _find(Path(folder), scene, file) if folder else _download(scene, file)
-    pixels = read_image(path)[0] if file.startswith("im") else read_raw(path)
+    remedy = f"put Middlebury's own {scene} there" if folder else "delete it: it is downloaded again"
+    problem = f"'{path}' does not hold the pixels of Middlebury's {scene}/{file}"
+    try:
+        pixels = read_image(path)[0] if file.startswith("im") else read_raw(path)
+    except InputError as error:
+        raise InputError(problem, remedy) from error
     if pixel_sum(pixels) != _MIDDLEBURY[scene].pixels[file]:
-        remedy = f"put Middlebury's own {scene} there" if folder else "delete it: it is downloaded again"
-        raise InputError(f"'{path}' does not hold the pixels of Middlebury's {scene}/{file}", remedy)
+        raise InputError(problem, remedy)
     return pixels
 
 
@@ -171,5 +181,3 @@ def pixel_sum(pixels: np.ndarray) -> str:
     """SHA-256 over shape and values, which no re-encoding changes; a truth's single axis is dropped."""
     pixels = pixels[:, :, 0] if pixels.shape[2] == 1 else pixels
     return hashlib.sha256(repr(pixels.shape).encode() + np.ascontiguousarray(pixels).tobytes()).hexdigest()
-
-

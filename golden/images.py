@@ -146,7 +146,9 @@ def read_bytes(path: str | Path) -> bytes:
     except IsADirectoryError as error:
         raise InputError(f"'{path}' is a folder", "name a file in it") from error
     except OSError as error:
-        raise InputError(f"'{path}' cannot be read: {error.strerror}", "check the path and its rights") from error
+        raise InputError(
+            f"'{path}' cannot be read: {error.strerror}", "check the path and its rights"
+        ) from error
     if not data:
         raise InputError(f"'{path}' is empty", "copy or download it again")
     return data

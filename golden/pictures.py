@@ -142,7 +142,9 @@ def _legend(figure: Figure, height: float) -> None:
     axes.set_axis_off()
     for label, rgb in ERROR_COLOURS.items():
         shade = tuple(value / 255 for value in rgb)
-        axes.scatter([], [], marker="s", s=90, color=[shade], edgecolors="#8c959f", linewidths=0.5, label=label)
+        axes.scatter(
+            [], [], marker="s", s=90, color=[shade], edgecolors="#8c959f", linewidths=0.5, label=label
+        )
     axes.legend(loc="center", ncols=len(ERROR_COLOURS), frameon=False, fontsize=10, labelcolor=_INK)
 
 

@@ -82,7 +82,9 @@ def read_truth(
         raise InputError(f"truth '{path}' is {found}, not {kind}", f"use kind '{found}' or 'auto'")
     scale = _SCALES[found] if scale is None else scale
     if not (np.isfinite(scale) and scale > 0):
-        raise InputError(f"truth scale {scale} is not a positive number", "give file units per pixel, such as 4")
+        raise InputError(
+            f"truth scale {scale} is not a positive number", "give file units per pixel, such as 4"
+        )
     if shape is not None and values.shape != tuple(shape):
         raise InputError(
             f"truth '{path}' is {size_text(values)}, but the images are {shape[1]}x{shape[0]}",

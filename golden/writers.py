@@ -42,7 +42,9 @@ def write_disparity_png(path: str | Path, disparity: np.ndarray, valid: np.ndarr
     values = np.rint(np.where(valid, disparity, 0) * float(KITTI_SCALE))
     for worst in (values.min(), values.max()):
         if not 0 <= worst <= 0xFFFF:
-            raise InputError(f"disparity {worst / KITTI_SCALE:g} does not fit a 16-bit PNG", "write a PFM instead")
+            raise InputError(
+                f"disparity {worst / KITTI_SCALE:g} does not fit a 16-bit PNG", "write a PFM instead"
+            )
     values = np.where(valid, np.maximum(values, 1), 0)
     write_atomically(path, _png(values.astype(np.uint16)))
 

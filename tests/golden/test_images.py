@@ -105,7 +105,9 @@ def test_no_right_to_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert "Permission denied" in refused(tmp_path / "left.png")
 
 
-@pytest.mark.parametrize("content", [b"hello, world\n" * 9, b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff\xe0", b"P6\n3 3\n"])
+@pytest.mark.parametrize(
+    "content", [b"hello, world\n" * 9, b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff\xe0", b"P6\n3 3\n"]
+)
 def test_not_an_image(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "left.png"
     path.write_bytes(content)
@@ -150,12 +152,16 @@ def test_huge_png_is_refused_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     path = tmp_path / "left.png"
     header = struct.pack(">IIBBBBB", 60000, 50000, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", b"") + chunk(b"IEND", b""))
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", b"") + chunk(b"IEND", b"")
+    )
     assert "60000x50000" in refused(path)
 
 
 def test_too_wide(tmp_path: Path) -> None:
-    assert f"{MAX_SIDE + 1}x2" in refused(save(tmp_path / "left.ppm", np.zeros((2, MAX_SIDE + 1, 3), np.uint8)))
+    assert f"{MAX_SIDE + 1}x2" in refused(
+        save(tmp_path / "left.ppm", np.zeros((2, MAX_SIDE + 1, 3), np.uint8))
+    )
 
 
 def test_float_image(tmp_path: Path, picture: np.ndarray) -> None:
@@ -168,7 +174,9 @@ def test_sizes_that_differ_are_both_named(tmp_path: Path, picture: np.ndarray) -
         read_pair(left, right)
 
 
-@pytest.mark.parametrize("bad", [np.zeros((4, 5), np.uint8), np.zeros((4, 5, 3)), np.zeros((4, 5, 4), np.uint8)])
+@pytest.mark.parametrize(
+    "bad", [np.zeros((4, 5), np.uint8), np.zeros((4, 5, 3)), np.zeros((4, 5, 4), np.uint8)]
+)
 def test_pair_of_other_arrays(bad: np.ndarray) -> None:
     with pytest.raises(InputError, match="the right image is"):
         StereoPair(np.zeros((4, 5, 3), np.uint8), bad, "x")

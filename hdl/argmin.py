@@ -1,0 +1,147 @@
+"""Argmin over fractions, compared exactly (Bobyr et al. 2021, step 5, eq. 11)."""
+
+from amaranth.hdl import Module, Mux, Signal, ValueLike
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+
+def candidate_layout(num_maximum: int, den_maximum: int, indices: int) -> data.StructLayout:
+    """A candidate: its cost ``num / den``, its index, and whether it is out of the running.
+
+    ``den_maximum = 0`` stands for costs that are plain numbers: there is no denominator then.
+    """
+    return data.StructLayout(
+        {
+            "num": range(num_maximum + 1),
+            "den": range(den_maximum + 1),
+            "index": range(indices),
+            "excluded": 1,
+        }
+    )
+
+
+class FractionMin(wiring.Component):
+    """The better of two candidates: the smaller fraction, and the smaller index on a tie.
+
+    ``a.num / a.den < b.num / b.den`` is decided as ``a.num * b.den < b.num * a.den``: two
+    multiplications, no division, nothing rounded. An excluded candidate loses against any other.
+    One pair a clock.
+
+    Members
+    -------
+    a, b : the candidates.
+    o : the better one, ``latency`` clocks later.
+    """
+
+    latency = 2
+
+    def __init__(self, layout: data.StructLayout) -> None:
+        self._layout = layout
+        super().__init__({"a": In(layout), "b": In(layout), "o": Out(layout)})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        a = Signal(self._layout, reset_less=True)
+        b = Signal(self._layout, reset_less=True)
+        best = Signal(self._layout, reset_less=True)
+        left: ValueLike
+        right: ValueLike
+        if len(self.a.den):
+            shape = (self.a.num * self.b.den).shape()
+            left = Signal(shape, reset_less=True)
+            right = Signal(shape, reset_less=True)
+            m.d.sync += [left.eq(self.a.num * self.b.den), right.eq(self.b.num * self.a.den)]
+        else:
+            left, right = a.num, b.num
+        a_wins = Signal()
+        m.d.comb += a_wins.eq((left < right) | ((left == right) & (a.index < b.index)))
+        m.d.sync += [
+            a.eq(self.a),
+            b.eq(self.b),
+            best.eq(Mux(b.excluded | (a_wins & ~a.excluded), a, b)),
+        ]
+        m.d.comb += self.o.eq(best)
+        return m
+
+
+class ArgminTree(wiring.Component):
+    """The best of many candidates that arrive together, one set a clock.
+
+    Members
+    -------
+    i : the candidates, by ascending index.
+    o : the best, `latency` clocks later.
+    """
+
+    def __init__(self, layout: data.StructLayout, count: int) -> None:
+        self._layout = layout
+        self._count = count
+        self.latency = FractionMin.latency * (count - 1).bit_length()
+        super().__init__({"i": In(data.ArrayLayout(layout, count)), "o": Out(layout)})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        level = [self.i[k] for k in range(self._count)]
+        while len(level) > 1:
+            following = []
+            for k in range(0, len(level) - 1, 2):
+                node = FractionMin(self._layout)
+                m.submodules[f"node_{len(level)}_{k}"] = node
+                m.d.comb += [node.a.eq(level[k]), node.b.eq(level[k + 1])]
+                following.append(node.o)
+            if len(level) % 2:
+                waiting = level[-1]
+                for stage in range(FractionMin.latency):
+                    register = Signal(self._layout, name=f"wait_{len(level)}_{stage}", reset_less=True)
+                    m.d.sync += register.eq(waiting)
+                    waiting = register
+                following.append(waiting)
+            level = following
+        m.d.comb += self.o.eq(level[0])
+        return m
+
+
+class ArgminSequence(wiring.Component):
+    """The best of ``count`` candidates that arrive one after the other.
+
+    Each level of a chain joins neighbours and halves the rate, so that no comparison feeds back
+    into itself and all are pipelined.
+
+    Members
+    -------
+    valid, last : a candidate is there, and it is the last of its sequence.
+    i : the candidate.
+    o : the best, `latency` clocks after the last.
+    """
+
+    def __init__(self, layout: data.StructLayout, count: int) -> None:
+        self._layout = layout
+        self._levels = (count - 1).bit_length()
+        self.latency = FractionMin.latency * self._levels
+        super().__init__({"valid": In(1), "last": In(1), "i": In(layout), "o": Out(layout)})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        valid, last, current = self.valid, self.last, self.i
+        for level in range(self._levels):
+            m.submodules[f"node_{level}"] = node = FractionMin(self._layout)
+            held = Signal(self._layout, name=f"held_{level}", reset_less=True)
+            second = Signal(name=f"second_{level}")
+            emits = Signal(name=f"emits_{level}")
+            m.d.comb += [
+                emits.eq(valid & (second | last)),
+                node.a.eq(held),
+                node.b.eq(current),
+            ]
+            with m.If(~second):  # an odd one out at the end meets nobody
+                m.d.comb += node.a.excluded.eq(1)
+            with m.If(valid):
+                m.d.sync += [second.eq(~second & ~last), held.eq(current)]
+            valid, last, current = emits, last, node.o
+            for stage in range(FractionMin.latency):
+                for_valid = Signal(name=f"valid_{level}_{stage}")
+                for_last = Signal(name=f"last_{level}_{stage}", reset_less=True)
+                m.d.sync += [for_valid.eq(valid), for_last.eq(last)]
+                valid, last = for_valid, for_last
+        m.d.comb += self.o.eq(current)
+        return m

@@ -1,0 +1,183 @@
+"""The stereo core: pixel pairs in, disparities out."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.fifo import SyncFIFOBuffered
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import Config
+from softdepth.hdl.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.delay import Delay
+from softdepth.hdl.frame_guard import FrameGuard
+from softdepth.hdl.lane import Lane, column_layout
+from softdepth.hdl.line_buffer import LineBuffer
+from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.right_columns import RightColumns, candidate
+from softdepth.hdl.sequencer import Sequencer, tags_layout
+from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
+from softdepth.validity import Validity
+
+
+FIFO_LATENCY = 2
+"""Clocks from a write into the result FIFO to its output."""
+
+
+class StereoCore(wiring.Component):
+    """Streams a stereo pair in and one disparity per pixel out (Bobyr et al. 2021).
+
+    ::
+
+        i > frame guard > sequencer > line buffer > right columns > lanes > argmin > results > o
+
+    Throughput is one result every `Config.steps` clocks, without a pause between lines or frames.
+    The pipeline itself never stalls: a pixel is admitted when its result has a place in the result
+    FIFO, so back-pressure reaches the input and no further. The result of (x, y) follows the pixel
+    at (x + reach_right, y + reach_rows), of which it is the last to need, by `latency` clocks;
+    results of a frame's last rows follow by themselves.
+
+    Members
+    -------
+    i : stream of `PixelPair`.
+    o : stream of `result_layout(config)`, one result for each pixel, in the same order.
+    status : counters of broken input.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._lanes = [Lane(config) for _ in range(config.lanes)]
+        lane = self._lanes[0]
+        self._leaf = candidate_layout(lane.num_maximum, lane.den_maximum, config.lanes)
+        self._best = candidate_layout(lane.num_maximum, lane.den_maximum, config.disparities)
+        self._tree = ArgminTree(self._leaf, config.lanes)
+        self._sequence = ArgminSequence(self._best, config.steps)
+
+        # Clocks after the one in which the pixel is taken.
+        self._column_time = LineBuffer.latency
+        self._criteria_time = self._column_time + lane.criteria_latency
+        self._cost_time = self._column_time + lane.latency
+        self._winner_time = self._cost_time + self._tree.latency
+        self._result_time = self._winner_time + self._sequence.latency
+        self.latency = self._result_time + config.steps - 1 + FIFO_LATENCY
+        self.fifo_depth = -(-(self.latency + 2) // config.steps) + 2
+        super().__init__(
+            {
+                "i": In(stream.Signature(PixelPair)),
+                "o": Out(stream.Signature(result_layout(config))),
+                "status": Out(Status),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config = self._config
+        control = Pipeline(m)
+
+        m.submodules.guard = guard = FrameGuard(config)
+        m.submodules.sequencer = sequencer = Sequencer(config)
+        wiring.connect(m, wiring.flipped(self.i), guard.i)
+        wiring.connect(m, guard.o, sequencer.i)
+        m.d.comb += self.status.eq(guard.status)
+
+        # Bits that say what happens are reset; what they speak of is not. Both start at clock 1.
+        occurs: dict[str, list[Signal]] = {}
+        for name, source in {"valid": sequencer.valid, "emit": sequencer.emit}.items():
+            occurs[name] = [source, source]
+            for time in range(2, self._result_time + 1):
+                occurs[name].append(Signal(name=f"{name}_{time}"))
+                m.d.sync += occurs[name][time].eq(occurs[name][time - 1])
+        step = control.input(sequencer.step, config.steps - 1, time=1)
+        room = control.input(sequencer.room, config.disparities - 1, time=1)
+
+        m.submodules.lines = lines = LineBuffer(2 * PIXEL_BITS, config.min_height, config.max_width)
+        item = guard.o.payload
+        column = column_layout(config)
+        left, right = Signal(column), Signal(column)
+        m.d.comb += [
+            lines.en.eq(sequencer.load),
+            lines.x.eq(item.x),
+            lines.pixel.eq(Cat(item.left, item.right)),
+            left.eq(Cat(lines.column[r][:PIXEL_BITS] for r in range(config.min_height))),
+            right.eq(Cat(lines.column[r][PIXEL_BITS:] for r in range(config.min_height))),
+        ]
+
+        step_2 = control.at(step, self._column_time).value
+        m.submodules.right = columns = RightColumns(config, column)
+        m.d.comb += [
+            columns.valid.eq(occurs["valid"][self._column_time]),
+            columns.first.eq(step_2 == 0),
+            columns.column.eq(right),
+        ]
+
+        m.submodules.tree = self._tree
+        near = self._near(m, control.at(step, self._criteria_time - 1))
+        excluded = self._excluded(m, control.at(step, self._cost_time - 1), control.at(room, self._cost_time - 1))
+        for k, lane in enumerate(self._lanes):
+            m.submodules[f"lane_{k}"] = lane
+            m.d.comb += [
+                lane.valid.eq(occurs["valid"][self._column_time]),
+                lane.left.eq(left),
+                lane.right.eq(columns.columns[k]),
+                lane.near.eq(near[k]),
+                self._tree.i[k].num.eq(lane.num),
+                self._tree.i[k].den.eq(lane.den),
+                self._tree.i[k].index.eq(k),
+                self._tree.i[k].excluded.eq(excluded[k]),
+            ]
+
+        m.submodules.sequence = sequence = self._sequence
+        winner_step = control.at(step, self._winner_time).value
+        winner = self._tree.o
+        m.d.comb += [
+            sequence.valid.eq(occurs["valid"][self._winner_time]),
+            sequence.last.eq(winner_step == config.steps - 1),
+            sequence.i.num.eq(winner.num),
+            sequence.i.den.eq(winner.den),
+            sequence.i.index.eq(winner.index * config.steps + (config.steps - 1 - winner_step)),
+            sequence.i.excluded.eq(winner.excluded),
+        ]
+
+        m.submodules.tags = tags = Delay(tags_layout(), self._result_time - 1)
+        m.d.comb += [tags.en.eq(1), tags.i.eq(sequencer.tags)]
+        self._results(m, occurs["emit"][self._result_time], tags.o, sequencer)
+        return m
+
+    def _near(self, m: Module, step: Word) -> list[Signal]:
+        """For each lane, one clock after ``step``: the compensating rule's bound is reached."""
+        config = self._config
+        near = []
+        for lane in range(config.lanes):
+            near.append(Signal(name=f"near_{lane}", reset_less=True))
+            # The step's candidate is `farthest - step`.
+            farthest = candidate(config, lane, 0)
+            m.d.sync += near[lane].eq(step.value + config.compensation.min_disparity <= farthest)
+        return near
+
+    def _excluded(self, m: Module, step: Word, room: Word) -> list[Signal]:
+        """For each lane, one clock after ``step``: its candidate's window leaves the other image."""
+        config = self._config
+        excluded = []
+        for lane in range(config.lanes):
+            excluded.append(Signal(name=f"excluded_{lane}", reset_less=True))
+            m.d.sync += excluded[lane].eq(candidate(config, lane, 0) > room.value + step.value)
+        return excluded
+
+    def _results(self, m: Module, emit: Signal, tags: data.View, sequencer: Sequencer) -> None:
+        """The result FIFO, and the credits that keep it from overflowing."""
+        layout = result_layout(self._config)
+        result = Signal(layout)
+        m.d.comb += [
+            result.disparity.eq(Mux(tags.code == Validity.BORDER, 0, self._sequence.o.index)),
+            *[result[name].eq(tags[name]) for name in ("code", "sof", "eol", "eof", "damaged")],
+        ]
+        m.submodules.results = fifo = SyncFIFOBuffered(width=layout.size, depth=self.fifo_depth)
+        m.d.comb += [
+            fifo.w_en.eq(emit),
+            fifo.w_data.eq(result),
+            self.o.valid.eq(fifo.r_rdy),
+            self.o.payload.eq(fifo.r_data),
+            fifo.r_en.eq(self.o.ready),
+        ]
+        credits_left = Signal(range(self.fifo_depth + 1), init=self.fifo_depth)
+        returned = self.o.valid & self.o.ready
+        m.d.sync += credits_left.eq(credits_left - sequencer.issued + returned)
+        m.d.comb += sequencer.credit.eq(credits_left != 0)

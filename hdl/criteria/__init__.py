@@ -1,0 +1,1 @@
+"""Criteria: what a candidate is judged by. One component per kind of criterion."""

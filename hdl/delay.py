@@ -1,0 +1,63 @@
+"""A delay counted in enabled clocks."""
+
+from amaranth.hdl import Module, ShapeLike, Signal
+from amaranth.lib import wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+REGISTER_LIMIT = 8
+"""Delays up to this depth are registers; longer ones are a ring in memory."""
+
+
+class Delay(wiring.Component):
+    """Delay a value by ``depth`` enabled clocks.
+
+    At a clock with ``en`` high, ``o`` shows what ``i`` was ``depth`` enabled clocks before. Short
+    delays are shift registers, long ones a memory ring (one write and one read port), so that the
+    cost stays flat when few lanes serve many disparities. The contents are not reset.
+
+    Parameters
+    ----------
+    shape : shape of the value.
+    depth : enabled clocks; 0 is a wire.
+    """
+
+    def __init__(self, shape: ShapeLike, depth: int) -> None:
+        if depth < 0:
+            raise ValueError(f"depth is {depth}, but a delay cannot look ahead")
+        self._shape = shape
+        self._depth = depth
+        super().__init__({"en": In(1), "i": In(shape), "o": Out(shape)})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        if self._depth <= REGISTER_LIMIT:
+            value = self.i
+            for k in range(self._depth):
+                register = Signal(self._shape, name=f"tap_{k + 1}", reset_less=True)
+                with m.If(self.en):
+                    m.d.sync += register.eq(value)
+                value = register
+            m.d.comb += self.o.eq(value)
+            return m
+
+        m.submodules.ring = ring = Memory(shape=self._shape, depth=self._depth, init=[])
+        write = ring.write_port()
+        read = ring.read_port()
+        position = Signal(range(self._depth))
+        following = Signal(range(self._depth))
+        m.d.comb += [
+            following.eq(position + 1),
+            write.en.eq(self.en),
+            write.addr.eq(position),
+            write.data.eq(self.i),
+            # Read one place ahead, so that the word is there when the next enabled clock comes.
+            read.en.eq(self.en),
+            read.addr.eq(following),
+            self.o.eq(read.data),
+        ]
+        with m.If(position == self._depth - 1):
+            m.d.comb += following.eq(0)
+        with m.If(self.en):
+            m.d.sync += position.eq(following)
+        return m

@@ -1,0 +1,216 @@
+"""Turns whatever markers arrive into frames that are whole."""
+
+from amaranth.hdl import Module, Mux, Signal, unsigned
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import Config
+from softdepth.hdl.signatures import COUNTER_BITS, PIXEL_BITS, PixelPair, Status
+
+
+def item_layout(config: Config) -> data.StructLayout:
+    """What leaves the guard: a pixel pair at column ``x``, or a bare ``end``.
+
+    Every frame begins with ``sof``, all its lines are equally long, and it is ended once: by
+    ``eof`` on its last pixel, or by an ``end`` item without a pixel. ``damaged`` tells that the
+    frame was mended, or cut short, up to here.
+    """
+    return data.StructLayout(
+        {
+            "left": unsigned(PIXEL_BITS),
+            "right": unsigned(PIXEL_BITS),
+            "x": range(config.max_width),
+            "sof": 1,
+            "eol": 1,
+            "eof": 1,
+            "end": 1,
+            "damaged": 1,
+        }
+    )
+
+
+class FrameGuard(wiring.Component):
+    """Learns width and height from the markers and mends what does not fit.
+
+    A frame's first line gives its width. Short lines are padded with their last pixel, long ones
+    are cut, pixels outside any frame are dropped, and a start of frame before the end closes the
+    running frame first; each is counted in ``status`` and marks the frame as damaged. Sound frames
+    pass unchanged, without a cycle lost.
+
+    A source that never sets ``eof`` is served too: the first frame ends when the second begins, from
+    then on the height is known. It changes when two frames in a row agree on another.
+
+    Members
+    -------
+    i : pixel pairs with raw markers. ``ready`` depends on ``valid``.
+    o : well-formed items, in the same clock.
+    status : counters of what was mended.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        super().__init__(
+            {
+                "i": In(stream.Signature(PixelPair)),
+                "o": Out(stream.Signature(item_layout(config))),
+                "status": Out(Status),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config = self._config
+        pair, item = self.i.payload, self.o.payload
+        taken = Signal()  # an item leaves
+        m.d.comb += taken.eq(self.o.valid & self.o.ready)
+
+        # Where the next pixel goes.
+        in_frame = Signal()
+        first_line = Signal()
+        x = Signal(range(config.max_width))
+        y = Signal(range(config.max_height))
+        last_x = Signal(range(config.max_width), reset_less=True)
+        damaged = Signal()
+
+        starts = Signal()
+        eol = Signal()
+        m.d.comb += [starts.eq(pair.sof), eol.eq(pair.eol | pair.eof)]
+
+        # The column at which the line must end, and whether it may end earlier.
+        here = Signal.like(x)
+        on_first_line = Signal()
+        m.d.comb += [here.eq(Mux(starts, 0, x)), on_first_line.eq(starts | first_line)]
+        full = Signal()
+        short = Signal()
+        m.d.comb += [
+            full.eq(here == Mux(on_first_line, config.max_width - 1, last_x)),
+            short.eq(eol & Mux(on_first_line, here < config.min_width - 1, ~full)),
+        ]
+
+        # Height, for sources that do not mark the end of a frame.
+        marks_end = Signal()
+        rows = Signal(range(config.max_height + 1))  # lines since the last start, dropped ones too
+        previous_rows = Signal.like(rows)
+        height = Signal.like(rows)  # 0: not known yet
+        row = Signal.like(y)
+        m.d.comb += row.eq(Mux(starts, 0, y))
+        ends_here = Signal()
+        m.d.comb += ends_here.eq(
+            pair.eof | (row == config.max_height - 1) | (~marks_end & (height == row + 1))
+        )
+        with m.If(self.i.valid & self.i.ready & pair.eof):
+            m.d.sync += marks_end.eq(1)
+
+        padding = Signal()
+        padded_left = Signal(PIXEL_BITS, reset_less=True)
+        padded_right = Signal(PIXEL_BITS, reset_less=True)
+        eof_after_padding = Signal(reset_less=True)
+        skipping = Signal()
+        dropping = Signal()
+        pending_end = Signal()  # a line was cut whose tail held the end of the frame
+
+        m.d.comb += [item.left.eq(pair.left), item.right.eq(pair.right), item.x.eq(here)]
+
+        def count(name: str) -> None:
+            counter = self.status[name]
+            with m.If(counter != 2**COUNTER_BITS - 1):
+                m.d.sync += counter.eq(counter + 1)
+
+        def finish_line(last: Signal, ends: Signal) -> None:
+            """The line's last pixel leaves, at column ``last``."""
+            m.d.sync += [x.eq(0), y.eq(row + 1), first_line.eq(0), last_x.eq(last)]
+            with m.If(ends):
+                m.d.sync += in_frame.eq(0)
+
+        with m.If(pending_end):
+            m.d.comb += [self.o.valid.eq(1), item.end.eq(1), item.damaged.eq(1)]
+            with m.If(taken):
+                m.d.sync += [pending_end.eq(0), in_frame.eq(0)]
+        with m.Elif(padding):
+            at_end = Signal()
+            m.d.comb += [
+                at_end.eq(Mux(first_line, x >= config.min_width - 1, x == last_x)),
+                self.o.valid.eq(1),
+                item.left.eq(padded_left),
+                item.right.eq(padded_right),
+                item.x.eq(x),
+                item.eol.eq(at_end),
+                item.eof.eq(at_end & eof_after_padding),
+                item.damaged.eq(1),
+                row.eq(y),
+            ]
+            with m.If(taken):
+                m.d.sync += x.eq(x + 1)
+                with m.If(at_end):
+                    m.d.sync += padding.eq(0)
+                    finish_line(x, eof_after_padding)
+        with m.Elif(skipping & ~(self.i.valid & starts)):
+            m.d.comb += self.i.ready.eq(1)
+            with m.If(self.i.valid & eol):
+                m.d.sync += [skipping.eq(0), pending_end.eq(pair.eof & in_frame)]
+        with m.Elif(self.i.valid & starts & in_frame):
+            m.d.sync += skipping.eq(0)
+            with m.If(x != 0):
+                count("early_starts")
+                count("short_lines")
+                m.d.sync += [padding.eq(1), damaged.eq(1), eof_after_padding.eq(1)]
+            with m.Else():
+                early = Signal()
+                m.d.comb += [
+                    early.eq(marks_end | (height != 0)),
+                    self.o.valid.eq(1),
+                    item.end.eq(1),
+                    item.damaged.eq(damaged | early),
+                ]
+                with m.If(taken):
+                    m.d.sync += in_frame.eq(0)
+                    with m.If(early):
+                        count("early_starts")
+        with m.Elif(self.i.valid & ~starts & ~in_frame):
+            m.d.comb += self.i.ready.eq(1)
+            m.d.sync += [dropping.eq(1), skipping.eq(0)]
+            with m.If(~dropping):
+                count("missing_starts")
+        with m.Elif(self.i.valid):
+            m.d.comb += [
+                self.o.valid.eq(1),
+                self.i.ready.eq(self.o.ready),
+                item.sof.eq(starts),
+                item.eol.eq((eol & ~short) | full),
+                item.eof.eq(item.eol & ends_here),
+                item.damaged.eq((damaged & ~starts) | short | (full & ~eol)),
+            ]
+            with m.If(taken):
+                m.d.sync += [
+                    in_frame.eq(1),
+                    dropping.eq(0),
+                    skipping.eq(0),
+                    x.eq(here + 1),
+                    damaged.eq(item.damaged),
+                    padded_left.eq(pair.left),
+                    padded_right.eq(pair.right),
+                    eof_after_padding.eq(ends_here),
+                ]
+                with m.If(starts):
+                    m.d.sync += [first_line.eq(1), y.eq(0)]
+                with m.If(item.eol):
+                    finish_line(here, item.eof)
+                with m.If(short):
+                    count("short_lines")
+                    m.d.sync += padding.eq(1)
+                with m.If(full & ~eol):
+                    count("long_lines")
+                    m.d.sync += skipping.eq(1)
+
+        with m.If(self.i.valid & self.i.ready):
+            counted = Signal.like(rows)
+            m.d.comb += counted.eq(Mux(starts, 0, rows))
+            with m.If(eol & (counted != config.max_height)):
+                m.d.sync += rows.eq(counted + 1)
+            with m.Else():
+                m.d.sync += rows.eq(counted)
+            with m.If(starts & (rows != 0)):
+                m.d.sync += previous_rows.eq(rows)
+                with m.If((height == 0) | (rows == previous_rows)):
+                    m.d.sync += height.eq(rows)
+        return m

@@ -1,0 +1,78 @@
+"""A lane: everything that judges one candidate."""
+
+from amaranth.hdl import Module, Signal
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import CHANNEL_BITS, CHANNELS, Config
+from softdepth.hdl.cost import COSTS, criteria_layout
+from softdepth.hdl.criteria.sad import SadCriteria
+
+CRITERIA = {"sad": SadCriteria}
+"""The component that computes each kind of criterion. All of a kind in a lane share one."""
+
+
+def column_layout(config: Config) -> data.ArrayLayout:
+    """A column of RGB pixels as high as the support, top first."""
+    return data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), config.min_height)
+
+
+class Lane(wiring.Component):
+    """Judges one candidate a clock: its criteria, then its cost.
+
+    Members
+    -------
+    valid : the columns are a step of a pixel.
+    left, right : the columns to compare.
+    near : input of the cost, ``criteria_latency`` clocks after the columns.
+    num, den : the candidate's cost, `latency` clocks after the columns.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._cost = COSTS[config.cost](config)
+        self._criteria = {
+            kind: CRITERIA[kind](config, [c for c in config.criteria if c.kind == kind])
+            for kind in sorted({c.kind for c in config.criteria})
+        }
+        self.criteria_latency = max(block.latency for block in self._criteria.values())
+        self.latency = self.criteria_latency + self._cost.latency
+        self.num_maximum = self._cost.num_maximum
+        self.den_maximum = self._cost.den_maximum
+        super().__init__(
+            {
+                "valid": In(1),
+                "left": In(column_layout(config)),
+                "right": In(column_layout(config)),
+                "near": In(1),
+                "num": Out(range(self.num_maximum + 1)),
+                "den": Out(range(self.den_maximum + 1)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.cost = self._cost
+        values = Signal(criteria_layout(self._config))
+        for kind, block in self._criteria.items():
+            m.submodules[kind] = block
+            m.d.comb += [
+                block.valid.eq(self.valid),
+                block.left.eq(self.left),
+                block.right.eq(self.right),
+            ]
+            aligned = block.o
+            for stage in range(self.criteria_latency - block.latency):
+                register = Signal(block.o.shape(), name=f"{kind}_{stage}", reset_less=True)
+                m.d.sync += register.eq(aligned)
+                aligned = register
+            mine = (i for i, c in enumerate(self._config.criteria) if c.kind == kind)
+            for k, i in enumerate(mine):
+                m.d.comb += values[f"s{i}"].eq(aligned[f"s{k}"])
+        m.d.comb += [
+            self._cost.near.eq(self.near),
+            self._cost.i.eq(values),
+            self.num.eq(self._cost.num),
+            self.den.eq(self._cost.den),
+        ]
+        return m

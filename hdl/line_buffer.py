@@ -1,0 +1,78 @@
+"""Line buffer: turns a raster of pixels into columns of neighbouring rows."""
+
+from amaranth.hdl import Cat, Module, Signal, unsigned
+from amaranth.lib import data, wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+
+class LineBuffer(wiring.Component):
+    """Keeps the last ``rows - 1`` lines in block RAM and gives the column that ends in the new pixel.
+
+    One memory holds all lines side by side: each pixel reads the column above it and writes it back
+    moved up by one row. Rows from before the frame hold stale pixels; results that would see them
+    are border results.
+
+    Parameters
+    ----------
+    width : bits of a pixel.
+    rows : rows of a column, the new pixel's included.
+    max_width : pixels of the longest line. Lines shorter than two pixels are not supported.
+
+    Members
+    -------
+    en, x, pixel : a pixel of column ``x`` enters at a clock with ``en`` high.
+    column : its column, top row first, `latency` clocks later, held until the next.
+    """
+
+    latency = 2
+
+    def __init__(self, width: int, rows: int, max_width: int) -> None:
+        self._width = width
+        self._rows = rows
+        self._depth = max_width
+        super().__init__(
+            {
+                "en": In(1),
+                "x": In(range(max_width)),
+                "pixel": In(width),
+                "column": Out(data.ArrayLayout(unsigned(width), rows)),
+            }
+        )
+
+    @property
+    def bits(self) -> int:
+        """Bits of memory."""
+        return self._width * (self._rows - 1) * self._depth
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        entered = Signal()
+        pixel = Signal(self._width, reset_less=True)
+        column = Signal(data.ArrayLayout(unsigned(self._width), self._rows))
+        held = Signal.like(column, reset_less=True)
+        m.d.sync += entered.eq(self.en)
+        with m.If(self.en):
+            m.d.sync += pixel.eq(self.pixel)
+        with m.If(entered):
+            m.d.sync += held.eq(column)
+        m.d.comb += self.column.eq(held)
+        if self._rows == 1:
+            m.d.comb += column[0].eq(pixel)
+            return m
+
+        m.submodules.lines = lines = Memory(
+            shape=unsigned(self._width * (self._rows - 1)), depth=self._depth, init=[]
+        )
+        read = lines.read_port()
+        write = lines.write_port()
+        m.d.comb += [
+            read.en.eq(self.en),
+            read.addr.eq(self.x),
+            column.as_value().eq(Cat(read.data, pixel)),
+            write.en.eq(entered),
+            write.data.eq(column.as_value()[self._width :]),
+        ]
+        with m.If(self.en):
+            m.d.sync += write.addr.eq(self.x)
+        return m

@@ -1,0 +1,22 @@
+"""MEAN (Bobyr et al. 2021, eq. 4, of three operands)."""
+
+from softdepth.hdl.pipeline import Pipeline, Word
+
+
+class Mean:
+    """Theta as the mean of the three memberships, times three: the third cancels in the ratio N/S."""
+
+    pair_latency = 1
+    fire_latency = 1
+
+    def maximum(self, one: int) -> int:
+        """``3 * one``: the sum of three full memberships."""
+        return 3 * one
+
+    def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
+        """``b + c``."""
+        return pipeline.add(b, c)
+
+    def fire(self, pipeline: Pipeline, a: Word, pair: Word) -> Word:
+        """``a + pair``."""
+        return pipeline.add(a, pair)

@@ -1,0 +1,99 @@
+"""Pipelined arithmetic that keeps its own books: widths and clocks."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from amaranth.hdl import Module, Mux, Shape, Signal, Value, ValueLike
+
+
+@dataclass(frozen=True)
+class Word:
+    """A number in a pipeline: its signal, the range it can take, and the clock it is valid in."""
+
+    value: Value
+    minimum: int
+    maximum: int
+    time: int
+
+
+class Pipeline:
+    """Builds registered arithmetic into a module; every operation takes one clock.
+
+    Operands that arrive at different clocks are aligned by registers, widths follow from the ranges.
+    The registers run freely and have no reset: which clocks matter is told by valid bits elsewhere.
+    """
+
+    def __init__(self, m: Module) -> None:
+        self._m = m
+        # Keyed by identity, so the source is kept alive beside its register.
+        self._delayed: dict[tuple[int, int], tuple[Value, Value]] = {}
+
+    def input(self, value: ValueLike, maximum: int, *, minimum: int = 0, time: int = 0) -> Word:
+        """A word that enters the pipeline at clock ``time``."""
+        return Word(Value.cast(value), minimum, maximum, time)
+
+    def register(self, value: ValueLike, minimum: int, maximum: int, time: int) -> Word:
+        """The word ``value``, computed at clock ``time``, one clock later."""
+        signal = Signal(_shape(minimum, maximum), name="word", reset_less=True)
+        self._m.d.sync += signal.eq(value)
+        return Word(signal, minimum, maximum, time + 1)
+
+    def at(self, word: Word, time: int) -> Word:
+        """``word`` delayed to clock ``time``."""
+        if time < word.time:
+            raise ValueError(f"a word of clock {word.time} is not there at clock {time}")
+        value = word.value
+        for now in range(word.time, time):
+            key = (id(value), now)
+            if key not in self._delayed:
+                register = self.register(value, word.minimum, word.maximum, now).value
+                self._delayed[key] = (value, register)
+            value = self._delayed[key][1]
+        return Word(value, word.minimum, word.maximum, time)
+
+    def aligned(self, *words: Word) -> tuple[Word, ...]:
+        """The words, all delayed to the latest of their clocks."""
+        time = max(word.time for word in words)
+        return tuple(self.at(word, time) for word in words)
+
+    def add(self, a: Word, b: Word) -> Word:
+        """``a + b``."""
+        a, b = self.aligned(a, b)
+        return self.register(a.value + b.value, a.minimum + b.minimum, a.maximum + b.maximum, a.time)
+
+    def max(self, a: Word, b: Word) -> Word:
+        """The larger of two words."""
+        a, b = self.aligned(a, b)
+        larger = Mux(a.value > b.value, a.value, b.value)
+        return self.register(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time)
+
+    def min(self, a: Word, b: Word) -> Word:
+        """The smaller of two words."""
+        a, b = self.aligned(a, b)
+        smaller = Mux(a.value < b.value, a.value, b.value)
+        return self.register(smaller, min(a.minimum, b.minimum), min(a.maximum, b.maximum), a.time)
+
+    def shifted(self, word: Word, bits: int) -> Word:
+        """``word * 2**bits``: wires only."""
+        return Word(word.value << bits, word.minimum << bits, word.maximum << bits, word.time)
+
+    def tree(self, operation: Callable[[Word, Word], Word], words: Sequence[Word]) -> Word:
+        """Reduce ``words`` with a balanced tree, in ``tree_latency(len(words))`` clocks."""
+        level = list(words)
+        while len(level) > 1:
+            paired = [operation(a, b) for a, b in zip(level[::2], level[1::2], strict=False)]
+            level = [*paired, *level[len(paired) * 2 :]]
+        return level[0]
+
+    def sum(self, words: Sequence[Word]) -> Word:
+        """The sum of ``words`` by a balanced adder tree."""
+        return self.tree(self.add, words)
+
+
+def tree_latency(words: int) -> int:
+    """Clocks that `Pipeline.tree` takes for so many words."""
+    return (words - 1).bit_length()
+
+
+def _shape(minimum: int, maximum: int) -> Shape:
+    return Shape.cast(range(minimum, maximum + 1))

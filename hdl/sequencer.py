@@ -1,0 +1,177 @@
+"""Deals pixels out as steps, and says which result leaves with which."""
+
+from amaranth.hdl import Module, Mux, Signal
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import Config
+from softdepth.hdl.frame_guard import item_layout
+from softdepth.validity import Validity
+
+
+def tags_layout() -> data.StructLayout:
+    """What is known of a result before it is computed: its code, markers and damage."""
+    return data.StructLayout({"code": 2, "sof": 1, "eol": 1, "eof": 1, "damaged": 1})
+
+
+class Sequencer(wiring.Component):
+    """Takes items from the frame guard and issues ``steps`` steps a pixel, without a pause.
+
+    Results leave in raster order, one with each pixel: the result of (x, y) leaves with the pixel
+    at (x + reach_right, y + reach_rows), where its support is complete. The last results of a
+    frame have no such pixel. They are border results, need no data, and leave with the first
+    pixels of the next frame, or by themselves in clocks without a pixel (the frame is *drained*).
+
+    Members
+    -------
+    i : items of well-formed frames.
+    credit : there is room for another result at the far end of the pipeline.
+    load : the pixel in ``i`` begins; its ``x`` and colours are valid in this clock only.
+    valid, first, last, step : a step is taken; registered, one clock after ``load``.
+    room : candidates ``d <= room`` lie in the other image, for the steps of an inner pixel.
+    emit, tags : a result leaves with this clock (a pixel's last step, or a drain), and its tags.
+    issued : a result was promised in this clock: a credit is used.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        super().__init__(
+            {
+                "i": In(stream.Signature(item_layout(config))),
+                "credit": In(1),
+                "load": Out(1),
+                "valid": Out(1),
+                "first": Out(1),
+                "last": Out(1),
+                "step": Out(range(config.steps)),
+                "room": Out(range(config.disparities)),
+                "emit": Out(1),
+                "tags": Out(tags_layout()),
+                "issued": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config = self._config
+        item = self.i.payload
+
+        # The frame that comes in.
+        support_x = config.reach_left + config.reach_right
+        support_y = 2 * config.reach_rows
+        y = Signal(range(support_y + 1))  # stops counting at the first row with inner pixels
+        room = Signal(range(config.disparities))  # stops counting at the last candidate
+        width = Signal(range(config.max_width))  # last column of the line before
+        row = Signal.like(y)
+        m.d.comb += row.eq(Mux(item.sof, 0, y))
+
+        # The frame whose results go out: this one once `started`, the one before while `draining`.
+        started = Signal()
+        draining = Signal()
+        fresh = Signal()
+        out_x = Signal(range(config.max_width))
+        out_width = Signal(range(config.max_width), reset_less=True)
+        rows_left = Signal(range(config.reach_rows + 1), reset_less=True)
+        drain_damaged = Signal(reset_less=True)
+
+        starts = Signal()
+        own = Signal()
+        ends = Signal()
+        m.d.comb += [
+            starts.eq(~item.end & ~started & (row == config.reach_rows) & (item.x == config.reach_right)),
+            own.eq(started | starts),
+            ends.eq(item.eof | item.end),
+        ]
+
+        # What happens in this clock.
+        busy = Signal()
+        emits = Signal()
+        waits = Signal()
+        drains = Signal()
+        m.d.comb += [
+            busy.eq(self.valid & ~self.last),
+            emits.eq(own | draining),
+            waits.eq((draining & (starts | ends)) | (emits & ~self.credit)),
+            self.load.eq(self.i.valid & ~item.end & ~busy & ~waits),
+            self.i.ready.eq(Mux(item.end, ~draining, ~busy & ~waits)),
+            drains.eq(draining & ~busy & ~self.load & self.credit),
+            self.issued.eq(drains | (self.load & emits)),
+        ]
+
+        inner = Signal()
+        first_out = Signal()
+        last_out_x = Signal.like(out_x)
+        at_x = Signal.like(out_x)
+        begins = Signal()  # `starts`, and the frame before is out of the way
+        m.d.comb += [
+            begins.eq(starts & ~draining),
+            inner.eq(own & (row == support_y) & (item.x >= support_x)),
+            first_out.eq(fresh | begins),
+            last_out_x.eq(Mux(begins, width, out_width)),
+            at_x.eq(Mux(begins, 0, out_x)),
+        ]
+        room_now = Signal.like(room)
+        m.d.comb += room_now.eq(Mux(item.x == support_x, 0, room))
+        tags = Signal(tags_layout(), reset_less=True)
+        emit = Signal()
+        drain = Signal()
+        at_eol = Signal()
+        m.d.comb += at_eol.eq(at_x == last_out_x)
+
+        with m.If(self.issued):
+            inner_code = Mux(room_now == config.disparities - 1, Validity.FULL, Validity.PARTIAL)
+            m.d.sync += [
+                tags.code.eq(Mux(draining | ~inner, Validity.BORDER, inner_code)),
+                tags.sof.eq(first_out),
+                tags.eol.eq(at_eol),
+                tags.eof.eq(draining & at_eol & (rows_left == 0)),
+                tags.damaged.eq(Mux(draining, drain_damaged, item.damaged)),
+                fresh.eq(0),
+                out_x.eq(Mux(at_eol, 0, at_x + 1)),
+            ]
+            with m.If(begins):
+                m.d.sync += out_width.eq(width)
+            with m.If(draining & at_eol):
+                m.d.sync += rows_left.eq(rows_left - 1)
+                with m.If(rows_left == 0):
+                    m.d.sync += draining.eq(0)
+
+        with m.If(self.load):
+            m.d.sync += [self.room.eq(room_now), emit.eq(emits)]
+            with m.If((item.x >= support_x) & (room_now != config.disparities - 1)):
+                m.d.sync += room.eq(room_now + 1)
+            with m.If(starts):
+                m.d.sync += started.eq(1)
+            m.d.sync += y.eq(row)
+            with m.If(item.eol):
+                m.d.sync += width.eq(item.x)
+                with m.If(row != support_y):
+                    m.d.sync += y.eq(row + 1)
+
+        with m.If(self.i.valid & self.i.ready & ends):
+            rows = Signal(range(support_y + 2))
+            m.d.comb += rows.eq(row + item.eof)  # an end item comes after its last row was counted
+            m.d.sync += [draining.eq(1), started.eq(0), y.eq(0), drain_damaged.eq(item.damaged)]
+            with m.If(own):
+                # The row in progress ends inside the frame, unless nothing reaches to the right.
+                m.d.sync += rows_left.eq(config.reach_rows - (config.reach_right == 0))
+            with m.Else():
+                m.d.sync += [
+                    rows_left.eq(rows - 1),
+                    fresh.eq(1),
+                    out_x.eq(0),
+                    out_width.eq(Mux(item.end, width, item.x)),
+                ]
+
+        m.d.sync += [self.valid.eq(self.load | busy), drain.eq(drains)]
+        with m.If(busy):
+            m.d.sync += self.step.eq(self.step + 1)
+        with m.Else():
+            m.d.sync += self.step.eq(0)
+        m.d.comb += [
+            self.first.eq(self.step == 0),
+            self.last.eq(self.step == config.steps - 1),
+            self.emit.eq(drain | (self.valid & self.last & emit)),
+            self.tags.eq(tags),
+        ]
+        return m

@@ -31,9 +31,9 @@ class Truth:
     Parameters
     ----------
     disparity : float32 H x W, in pixels; NaN where unknown.
-    gray : float32 H x W, the gray levels that the paper's RMSE (eq. 1) compares with; 0 where unknown.
-        The file's own values where it codes disparity in gray, else ``4 * disparity``, neither
-        rounded nor clipped.
+    gray : float32 H x W, the gray levels that the paper's RMSE (eq. 1) compares with; 0 where unknown
+        (``docs/datasets.md`` names the one exception). The file's own values where it codes disparity
+        in gray, else ``4 * disparity``, neither rounded nor clipped.
     nonoccluded : bool H x W, the pixels of known disparity that both views see, or None.
     evidence : what `nonoccluded` rests on: both views' truths (``cross-check``), this view's alone
         (``warp``), or the construction of a synthetic scene (``scene``).

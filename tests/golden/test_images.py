@@ -56,7 +56,9 @@ def test_orientation_tag_is_ignored(tmp_path: Path, picture: np.ndarray) -> None
     exif = b"Exif\0\0MM\0*\0\0\0\x08" + struct.pack(">HHHIHHI", 1, 0x0112, 3, 1, 6, 0, 0)
     data = path.read_bytes()
     path.write_bytes(data[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + data[2:])
-    assert cv2.imread(str(path)).shape[:2] == picture.shape[1::-1], "the tag is not one that OpenCV sees"
+    turned = cv2.imread(str(path))
+    assert turned is not None
+    assert turned.shape[:2] == picture.shape[1::-1], "the tag is not one that OpenCV sees"
     assert read_image(path)[0].shape == picture.shape
 
 

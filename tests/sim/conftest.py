@@ -1,11 +1,13 @@
 """A small design with the core's ports, and versions of it that break the stream rules.
 
-It lets the bench be tested in seconds and shows that the bench's checks can fail.
+It lets the bench be tested in seconds, and shows that the bench's checks can fail.
 """
 
+from collections.abc import Callable
 from typing import Literal
 
-from amaranth.back import verilog
+import numpy as np
+import pytest
 from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.fifo import SyncFIFOBuffered
@@ -14,6 +16,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.hdl.signatures import PixelPair, Status, result_layout
+from softdepth.hdl.verilog import to_verilog
 
 Fault = Literal["none", "drops_valid", "changes_payload", "loses_last", "repeats_last", "hangs"]
 
@@ -23,7 +26,7 @@ FAULT_COUNT = 20
 
 
 class StandIn(wiring.Component):
-    """Gives each pixel pair ``(left + right) mod disparities``, `steps` clocks a pixel, markers passed on.
+    """Gives each pixel pair ``(left - right) mod disparities``, `steps` clocks a pixel, markers passed on.
 
     ``status.short_lines`` counts the lines taken since reset. Faults: ``drops_valid`` takes back an offer
     that was not accepted, ``changes_payload`` alters one, ``loses_last`` and ``repeats_last`` give one
@@ -52,7 +55,7 @@ class StandIn(wiring.Component):
             ready &= taken != FAULT_COUNT
         m.d.comb += [
             self.i.ready.eq(ready),
-            result.disparity.eq(self.i.payload.left + self.i.payload.right),
+            result.disparity.eq(self.i.payload.left - self.i.payload.right),
             result.sof.eq(self.i.payload.sof),
             result.eol.eq(self.i.payload.eol),
             result.eof.eq(self.i.payload.eof),
@@ -78,7 +81,9 @@ class StandIn(wiring.Component):
         if self.fault == "drops_valid":
             m.d.comb += self.o.valid.eq(fifo.r_rdy & ~(struck & waited))
         elif self.fault == "changes_payload":
-            m.d.comb += self.o.payload.disparity.eq(result_layout(self.config)(fifo.r_data).disparity ^ (struck & waited))
+            m.d.comb += self.o.payload.disparity.eq(
+                result_layout(self.config)(fifo.r_data).disparity ^ (struck & waited)
+            )
         elif self.fault == "loses_last":
             m.d.comb += fifo.w_en.eq(self.i.valid & self.i.ready & ~self.i.payload.eof)
         elif self.fault == "repeats_last":
@@ -88,6 +93,31 @@ class StandIn(wiring.Component):
                 m.d.comb += [self.i.ready.eq(0), fifo.w_en.eq(1)]
 
 
-def stand_in_verilog(config: Config, fault: Fault = "none") -> str:
-    """The stand-in as Verilog, under the core's module name."""
-    return verilog.convert(StandIn(config, fault), name="softdepth_core")
+def expected_disparities(config: Config, left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """What the stand-in computes, from uint8 images: only red reaches the low bits of a pixel."""
+    return (left[..., 0].astype(int) - right[..., 0]) % config.disparities
+
+
+@pytest.fixture
+def config() -> Config:
+    """Two clocks a pixel."""
+    return Config.from_dict({"disparities": 32, "lanes": 16, "max_width": 64, "max_height": 64})
+
+
+@pytest.fixture
+def stand_in(config: Config) -> Callable[..., str]:
+    """Verilog of the stand-in for `config`, with a fault by name."""
+    return lambda fault="none": to_verilog(StandIn(config, fault))
+
+
+@pytest.fixture
+def pair() -> tuple[np.ndarray, np.ndarray]:
+    """A 9x12 uint8 RGB pair without any symmetry."""
+    left, right = np.random.default_rng(7).integers(0, 256, (2, 9, 12, 3), dtype=np.uint8)
+    return left, right
+
+
+@pytest.fixture
+def model() -> Callable[..., np.ndarray]:
+    """What the stand-in computes."""
+    return expected_disparities

@@ -1,0 +1,145 @@
+"""Whole stereo pairs through a simulated core."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+import numpy as np
+
+from softdepth.config import Config
+from softdepth.errors import InputError, ToolError
+from softdepth.golden.maps import DisparityMap
+from softdepth.golden.pair import Image, check_pair
+from softdepth.golden.views import from_core_view, to_core_view
+from softdepth.sim.job import Job
+from softdepth.sim.stalls import Stalls
+from softdepth.sim.stream import Progress, StreamResult, run_stream
+from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
+
+Pair = tuple[Image, Image]
+
+
+@dataclass(frozen=True)
+class FramesResult:
+    """Maps of a run, in the user's view, and what it took.
+
+    Members
+    -------
+    maps : one for each pair.
+    stream : the run itself: cycles, status, seconds.
+    """
+
+    maps: list[DisparityMap]
+    stream: StreamResult
+
+    @property
+    def cycles_per_pixel(self) -> float:
+        """Sustained clocks per result: those between the first result and the last, over all but one.
+
+        The filling of the core, about ``reach_rows`` lines, is latency and not in it; stalls and gaps are.
+        """
+        cycles = self.stream.cycles
+        return float(cycles[-1] - cycles[0]) / max(len(cycles) - 1, 1)
+
+    @property
+    def latency(self) -> int:
+        """Clocks from the first pixel taken to the first result."""
+        return int(self.stream.cycles[0] - self.stream.taken[0])
+
+    @property
+    def pixels_per_second(self) -> float:
+        """Results in a second of wall-clock time, which is the speed of the simulation."""
+        return len(self.stream.cycles) / self.stream.seconds_sim
+
+
+def run_frames(
+    config: Config,
+    pairs: Sequence[Pair],
+    *,
+    verilog: str | None = None,
+    stalls: Stalls | None = None,
+    gap: int = 0,
+    progress: Progress | None = None,
+    eof: bool = True,
+) -> FramesResult:
+    """Simulate the core of `config` on stereo pairs (HxWx3 uint8 each), one after the other.
+
+    Parameters
+    ----------
+    verilog : the core's text; by default it is made from `config`.
+    stalls : pauses at both ends; none by default.
+    gap : idle clocks between frames.
+    progress : called with the number of results so far.
+    eof : whether the source marks a frame's last pixel. Without it the core learns the height from the
+        frame before, so that there must be two at least, of one height.
+
+    Raises `InputError` for pairs that the core cannot take, before anything is built, and `ToolError`
+    for a missing tool, a failed build, or a core that does not give every result in good order.
+    """
+    _check(config, pairs, eof)
+    if verilog is None:
+        from softdepth.hdl.verilog import to_verilog  # elaboration is slow to import
+
+        verilog = to_verilog(config)
+    packed = [pack_frame(*to_core_view(left, right, config), eof=eof) for left, right in pairs]
+    sizes = [len(frame) for frame in packed]
+    starts = list(accumulate(sizes))[:-1] if gap else []
+    job = Job(
+        np.concatenate(packed),
+        stalls or Stalls(),
+        gaps=dict.fromkeys(starts, gap),
+        expected=sum(sizes),
+    )
+    stream = run_stream(verilog, job, progress=progress)
+    _check_run(stream, job)
+    frames = split_frames(unpack_results(stream.payloads, config))
+    shapes = [left.shape[:2] for left, _ in pairs]
+    if [frame.shape for frame in frames] != shapes:
+        raise _fault(f"frames of {[frame.shape for frame in frames]} came out where {shapes} went in")
+    for number, frame in enumerate(frames):
+        if frame["damaged"].any():
+            raise _fault(f"frame {number} went in sound and came out marked as damaged")
+    return FramesResult([from_core_view(found, config) for found in to_maps(frames)], stream)
+
+
+def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
+    if not pairs:
+        raise InputError("there is no stereo pair to simulate", "give one at least")
+    for left, right in pairs:
+        check_pair(left, right)
+        height, width, _ = left.shape
+        if not config.min_width <= width <= config.max_width:
+            raise InputError(
+                f"the pair is {width} pixels wide, the core takes {config.min_width} to {config.max_width}",
+                "change max_width, or resize the images",
+            )
+        if height > config.max_height:
+            raise InputError(
+                f"the pair has {height} lines, the core takes {config.max_height}",
+                "change max_height, or resize the images",
+            )
+    heights = {left.shape[0] for left, _ in pairs}
+    if not eof and (len(pairs) < 2 or len(heights) > 1):
+        raise InputError(
+            f"without eof, the last of {len(pairs)} pairs of heights {sorted(heights)} has no certain end",
+            "give two pairs of one height, or more",
+        )
+
+
+def _check_run(stream: StreamResult, job: Job) -> None:
+    if stream.violations:
+        raise _fault(f"{stream.violations[0].rule}, at clock {stream.violations[0].cycle}")
+    if not stream.complete:
+        raise _fault(
+            f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.payloads)} of"
+            f" {job.expected} results, and then nothing for {job.patience} clocks"
+        )
+    if len(stream.payloads) != job.expected:
+        raise _fault(f"it gave {len(stream.payloads)} results where {job.expected} were due")
+
+
+def _fault(problem: str) -> ToolError:
+    return ToolError(
+        f"the simulated core misbehaves: {problem}",
+        "this is a fault of the gateware; please report it with the configuration",
+    )

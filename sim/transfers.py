@@ -1,0 +1,108 @@
+"""Images into packed stream payloads, and packed results back into maps."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from amaranth.lib.data import StructLayout
+from numpy.typing import NDArray
+
+from softdepth.config import CHANNEL_BITS, Config
+from softdepth.errors import ToolError
+from softdepth.golden.maps import DisparityMap
+from softdepth.golden.pair import Image, check_pair
+from softdepth.hdl.signatures import PixelPair, Status, result_layout
+
+Payloads = NDArray[np.uint64]
+
+RESULT = np.dtype(
+    [("disparity", "u2"), ("code", "u1"), ("sof", "?"), ("eol", "?"), ("eof", "?"), ("damaged", "?")]
+)
+"""A result as NumPy sees it; the fields of `softdepth.hdl.signatures.result_layout`."""
+
+
+def pack_frame(left: Image, right: Image, *, eof: bool = True) -> Payloads:
+    """The transfers of one frame in raster order: HxWx3 uint8 images in, H*W `PixelPair` payloads out.
+
+    `left` is what the core refers to. Without `eof` the frame's last pixel is not marked. Raises
+    `InputError` for images that are not a pair.
+    """
+    check_pair(left, right)
+    height, width, _ = left.shape
+    frame = _pack(PixelPair, "left", _words(left)) | _pack(PixelPair, "right", _words(right))
+    ones = np.ones((), np.uint64)
+    frame[0, 0] |= _pack(PixelPair, "sof", ones)
+    frame[:, width - 1] |= _pack(PixelPair, "eol", ones)
+    if eof:
+        frame[height - 1, width - 1] |= _pack(PixelPair, "eof", ones)
+    return frame.reshape(-1)
+
+
+def unpack_results(payloads: Payloads, config: Config) -> NDArray[np.void]:
+    """Packed results as an array of `RESULT` records, one for each payload."""
+    layout = result_layout(config)
+    results = np.zeros(payloads.shape, RESULT)
+    for name in RESULT.names or ():
+        results[name] = unpack_field(layout, name, payloads)
+    return results
+
+
+def unpack_status(word: int) -> dict[str, int]:
+    """The counters of the packed `Status` port."""
+    words = np.array(word, np.uint64)
+    return {name: int(unpack_field(Status, name, words)) for name, _ in Status}
+
+
+def split_frames(results: NDArray[np.void]) -> list[NDArray[np.void]]:
+    """Consecutive `RESULT` records as frames, HxW each.
+
+    Every frame must begin with ``sof``, end every line of the same length with ``eol`` and its last
+    with ``eof``; raises `ToolError` naming the first place where the core's markers break that.
+    """
+    frames = []
+    ends = np.flatnonzero(results["eof"]) + 1
+    starts = np.concatenate(([0], ends))
+    if starts[-1] != len(results):
+        raise _malformed(
+            len(frames), int(starts[-1]), f"the last {len(results) - starts[-1]} results have no eof"
+        )
+    for start, end in zip(starts[:-1].tolist(), ends.tolist(), strict=True):
+        frame = results[start:end]
+        width = int(np.argmax(frame["eol"])) + 1
+        expected = {"sof": np.arange(len(frame)) == 0, "eol": np.arange(len(frame)) % width == width - 1}
+        for marker, where in expected.items():
+            wrong = np.flatnonzero(frame[marker] != where)
+            if wrong.size:
+                y, x = divmod(int(wrong[0]), width)
+                raise _malformed(len(frames), start, f"{marker} at y={y} x={x} is {frame[marker][wrong[0]]}")
+        if not frame["eol"][-1]:
+            raise _malformed(len(frames), start, f"its {len(frame)} results are not whole lines of {width}")
+        frames.append(frame.reshape(-1, width))
+    return frames
+
+
+def to_maps(frames: Sequence[NDArray[np.void]]) -> list[DisparityMap]:
+    """Frames as `split_frames` gives them, as maps in the core's view."""
+    return [DisparityMap(frame["disparity"].copy(), frame["code"].copy()) for frame in frames]
+
+
+def unpack_field(layout: StructLayout, name: str, words: Payloads) -> Payloads:
+    """One field of packed words."""
+    field = layout[name]
+    return (words >> np.uint64(field.offset)) & np.uint64((1 << field.width) - 1)
+
+
+def _pack(layout: StructLayout, name: str, values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    return values << np.uint64(layout[name].offset)
+
+
+def _words(image: Image) -> NDArray[np.uint64]:
+    """Red in the lowest byte, then green, then blue."""
+    shifts = np.arange(image.shape[2], dtype=np.uint64) * np.uint64(CHANNEL_BITS)
+    return (image.astype(np.uint64) << shifts).sum(axis=2, dtype=np.uint64)
+
+
+def _malformed(frame: int, first: int, problem: str) -> ToolError:
+    return ToolError(
+        f"the core's results are no frames: frame {frame}, from result {first}: {problem}",
+        "this is a fault of the gateware; please report it with the configuration",
+    )

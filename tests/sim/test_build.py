@@ -1,0 +1,87 @@
+"""Builds are cached by everything that matters, and a failed one leaves nothing behind."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from uuid import uuid4
+
+import pytest
+
+from softdepth.errors import ToolError
+from softdepth.sim.build import TOP, build
+
+
+@pytest.fixture
+def new_design(stand_in: Callable[..., str]) -> Iterator[str]:
+    """A design that was never built before, removed from the cache afterwards."""
+    text = f"// {uuid4()}\n{stand_in()}"
+    yield text
+    folder = build(text).folder
+    shutil.rmtree(folder)
+    for suffix in (".log", ".lock"):
+        folder.with_suffix(suffix).unlink()
+
+
+def test_builds_once_even_when_asked_twice_at_the_same_time(new_design: str) -> None:
+    with ProcessPoolExecutor(2) as pool:
+        first, second = pool.map(build, [new_design] * 2)
+    assert {first.cached, second.cached} == {True, False}
+    assert first.folder == second.folder
+    third = build(new_design)
+    assert third.cached
+    assert third.seconds < 2
+    assert (third.folder / TOP).stat().st_mode & 0o100
+
+
+def test_another_design_or_flag_is_another_build(
+    stand_in: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = build(stand_in())
+    assert build(stand_in("hangs")).folder != one.folder
+    monkeypatch.setattr("softdepth.sim.build.MAKE_FLAGS", ("OPT_FAST=-O0", "OPT_SLOW=-O0", "OPT_GLOBAL=-O0"))
+    monkeypatch.setattr("softdepth.sim.build._build", lambda *arguments: None)
+    other = build(stand_in())
+    assert other.folder != one.folder
+    assert not other.cached
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "module softdepth_core(input clk; endmodule",
+        "module other(input clk); endmodule",
+        "module softdepth_core(input clk); missing m(clk); endmodule",
+    ],
+    ids=["syntax", "no top", "missing module"],
+)
+def test_a_broken_design_fails_every_time(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path / "with space"))
+    for _ in range(2):
+        with pytest.raises(ToolError, match="%Error") as caught:
+            build(text)
+        assert "\n" not in str(caught.value)
+        log = Path(caught.value.remedy.removeprefix("see "))
+        assert log.is_relative_to(tmp_path)
+        assert "%Error" in log.read_text()
+        assert not [path for path in (tmp_path / "with space").rglob("*") if path.name == TOP]
+
+
+def test_a_compiler_that_fails_leaves_no_program(
+    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path))
+    monkeypatch.setattr("softdepth.sim.build.MAKE_FLAGS", ("OPT_FAST=--no-such-option",))
+    with pytest.raises(ToolError, match=r"no-such-option.*see "):
+        build(stand_in())
+    assert not list(tmp_path.rglob(TOP))
+    assert not list(tmp_path.rglob("*.o"))
+
+
+def test_a_cache_that_cannot_be_written(
+    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path / "file"))
+    with pytest.raises(ToolError, match=r"cannot write the cache.*set SOFTDEPTH_CACHE"):
+        build(stand_in())

@@ -1,0 +1,188 @@
+"""The fixed model against plain loops over the paper's formulas, for many random configurations."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from softdepth.config import Config
+from softdepth.golden import fixed_model
+
+# Table 1, transcribed from the paper: "31" is A_31, label 3 of criterion 1.
+TABLE_1 = {
+    1: ["31 32 33"],
+    2: ["31 32 23", "31 22 33"],
+    3: ["31 32 13", "31 22 23", "31 12 33"],
+    4: ["31 12 13", "31 12 23", "31 22 13"],
+    5: ["21 22 33", "21 32 23", "21 32 33"],
+    6: ["21 12 33", "21 22 23", "21 32 13"],
+    7: ["11 32 33", "21 12 23", "21 22 13"],
+    8: ["11 22 33", "11 32 23", "21 12 13"],
+    9: ["11 12 33", "11 22 23", "11 32 13"],
+    10: ["11 12 23", "11 22 13"],
+    11: ["11 12 13"],
+}
+CORRECTED = {**TABLE_1, 4: ["21 32 33", *TABLE_1[4][1:]], 5: [*TABLE_1[5][:2], "31 12 13"]}
+BORDER, PARTIAL, FULL = 2, 1, 0
+
+
+def loop_sad(left, right, x, y, d, window, dx):
+    r = window // 2
+    return sum(
+        abs(left[y + m][x + dx + n][channel] - right[y + m][x + dx + n - d][channel])
+        for m in range(-r, r + 1)
+        for n in range(-r, r + 1)
+        for channel in range(3)
+    )
+
+
+def loop_cost(left, right, x, y, d, c):
+    s = [loop_sad(left, right, x, y, d, i.window, i.dx) for i in c.criteria]
+    if c.cost == "sad":
+        return Fraction(s[0])
+    tops = [2 * 2**i.label_bits for i in c.criteria]
+    rule = c.compensation
+    if rule.reading != "off" and d >= rule.min_disparity:
+        assert any((i.window, i.dx) == (3, 0) for i in c.criteria)
+        if loop_sad(left, right, x, y, d, 3, 0) > rule.threshold:
+            s = tops if rule.reading == "top" else [1000] * 3
+    one = 2**c.membership_bits
+    degree = {}
+    for i, (value, top, criterion) in enumerate(zip(s, tops, c.criteria, strict=True), start=1):
+        u = min(value, top) // 2 ** (criterion.label_bits - c.membership_bits)
+        degree[f"1{i}"] = one - u if u < one else 0
+        degree[f"2{i}"] = u if u < one else 2 * one - u
+        degree[f"3{i}"] = u - one if u > one else 0
+    theta = {"min": min, "mean": lambda *a: Fraction(sum(a), 3)}[c.operator]
+    table = CORRECTED if c.rules == "corrected" else TABLE_1
+    strengths = {k: max(theta(*(degree[a] for a in r.split())) for r in rules) for k, rules in table.items()}
+    return Fraction(sum(y_k * (11 - k) for k, y_k in strengths.items()), sum(strengths.values()))
+
+
+def loop_model(left, right, c):
+    """(disparity, code) of every pixel, straight from the rules; Python integers only."""
+    a, b = left.tolist(), right.tolist()
+    if c.reference == "right":
+        a, b = [row[::-1] for row in b], [row[::-1] for row in a]
+    height, width = len(a), len(a[0])
+    offsets = [(i.window // 2, i.dx) for i in c.criteria]
+    result = []
+    for y in range(height):
+        row = []
+        for x in range(width):
+            touched = {x} | {x + dx + s * r for r, dx in offsets for s in (-1, 1)}
+            rows = {y + s * r for r, _ in offsets for s in (-1, 1)}
+            if min(touched) < 0 or max(touched) >= width or min(rows) < 0 or max(rows) >= height:
+                row.append((0, BORDER))
+                continue
+            allowed = [d for d in range(c.disparities) if min(touched) - d >= 0]
+            best = min(allowed, key=lambda d: (loop_cost(a, b, x, y, d, c), d))
+            row.append((best, FULL if len(allowed) == c.disparities else PARTIAL))
+        result.append(row[::-1] if c.reference == "right" else row)
+    return result
+
+
+def random_config(rng):
+    cost = rng.choice(["fuzzy", "fuzzy", "fuzzy", "sad"])
+    membership_bits = int(rng.integers(2, 13))
+
+    def criterion():
+        return {
+            "window": int(rng.choice([1, 3, 3, 5, 7])),
+            "dx": int(rng.integers(-3, 4)),
+            "label_bits": int(rng.integers(max(4, membership_bits), 15)),
+        }
+
+    criteria = [criterion() for _ in range(3 if cost == "fuzzy" else 1)]
+    disparities = int(rng.integers(2, 9))
+    compensation = {}
+    if cost == "fuzzy" and rng.random() < 0.6:
+        criteria[rng.integers(3)].update(window=3, dx=0)
+        compensation = {
+            "reading": str(rng.choice(["top", "literal"])),
+            "threshold": int(rng.integers(0, 3000)),
+            "min_disparity": int(rng.integers(0, disparities)),
+        }
+    return Config.from_dict(
+        {
+            "disparities": disparities,
+            "lanes": 1,
+            "cost": str(cost),
+            "operator": str(rng.choice(["min", "mean"])),
+            "rules": str(rng.choice(["printed", "corrected"])),
+            "reference": str(rng.choice(["left", "right"])),
+            "membership_bits": membership_bits,
+            "criteria": criteria,
+            "compensation": compensation,
+            "max_width": 64,
+        }
+    )
+
+
+def random_pair(rng, config):
+    """Noise of random depth, a little smaller or larger than the support: two levels make ties."""
+    height = max(1, config.min_height + rng.integers(-1, 9))
+    width = max(1, config.min_width + rng.integers(-1, 24))
+    levels = int(rng.choice([2, 4, 256]))
+    contrast = int(rng.integers(1, 255 // (levels - 1) + 1))
+    return (rng.integers(0, levels, (2, height, width, 3)) * contrast).astype(np.uint8)
+
+
+def as_pairs(result):
+    return [
+        list(zip(*rows, strict=True))
+        for rows in zip(result.disparity.tolist(), result.code.tolist(), strict=True)
+    ]
+
+
+@pytest.mark.parametrize("seed", range(120))
+def test_random_configurations_match_the_loops(seed):
+    rng = np.random.default_rng(seed)
+    config = random_config(rng)
+    left, right = random_pair(rng, config)
+    got = as_pairs(fixed_model.disparity(left, right, config))
+    assert got == loop_model(left, right, config), config.to_toml()
+
+
+@pytest.mark.parametrize("operator", ["min", "mean"])
+@pytest.mark.parametrize(("label_bits", "membership_bits"), [(4, 2), (4, 4), (12, 12), (20, 12), (20, 2)])
+@pytest.mark.parametrize("reading", ["off", "top", "literal"])
+def test_extreme_widths_match_the_loops(operator, label_bits, membership_bits, reading):
+    criteria = [{"window": w, "label_bits": label_bits} for w in (3, 13, 15)]
+    config = Config.from_dict(
+        {
+            "disparities": 4,
+            "lanes": 1,
+            "operator": operator,
+            "membership_bits": membership_bits,
+            "criteria": criteria,
+            "compensation": {"reading": reading, "min_disparity": 2},
+        }
+    )
+    rng = np.random.default_rng(label_bits)
+    left = rng.integers(0, 2, (15, 19, 3), dtype=np.uint8) * np.uint8(255)
+    right = left.copy()
+    right[:, 8:] = 255 - left[:, 8:]  # sums from 0 up to all that a window can hold
+    got = as_pairs(fixed_model.disparity(left, right, config))
+    assert got == loop_model(left, right, config)
+
+
+def test_random_configurations_reach_every_branch():
+    drawn = [random_config(np.random.default_rng(seed)) for seed in range(120)]
+    assert {c.compensation.reading for c in drawn} == {"off", "top", "literal"}
+    assert {(c.operator, c.rules, c.reference) for c in drawn if c.cost == "fuzzy"} == {
+        (operator, rules, view)
+        for operator in ("min", "mean")
+        for rules in ("printed", "corrected")
+        for view in ("left", "right")
+    }
+    assert {c.membership_bits for c in drawn} == set(range(2, 13))
+    assert any(c.cost == "sad" for c in drawn)
+
+
+def test_table_1_and_the_loops_use_each_rule_once():
+    for table in (TABLE_1, CORRECTED):
+        rules = [rule for row in table.values() for rule in row]
+        assert sorted(rules) == sorted(
+            f"{a}1 {b}2 {c}3" for a in (1, 2, 3) for b in (1, 2, 3) for c in (1, 2, 3)
+        )

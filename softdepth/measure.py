@@ -10,7 +10,8 @@ from softdepth.errors import InputError
 
 if TYPE_CHECKING:
     from softdepth.golden.images import StereoPair
-    from softdepth.golden.maps import Difference, DisparityMap
+    from softdepth.golden.maps import DisparityMap
+    from softdepth.sim.compare import Mismatch
 
 Engine = Literal["rtl", "fixed", "float", "sad"]
 """``sad`` is the baseline: plain 3x3 SAD with the same candidates and view, in fixed point."""
@@ -53,11 +54,13 @@ class Measurement:
         """The map of the chosen engine."""
         return self.maps[self.engine]
 
-    def mismatches(self) -> "list[Difference] | None":
+    def mismatches(self) -> "list[Mismatch] | None":
         """Pixels in which the gateware departs from the fixed model; None if it was not measured."""
         if "rtl" not in self.maps:
             return None
-        return list(self.maps["fixed"].differences(self.maps["rtl"]))
+        from softdepth.sim.compare import mismatches
+
+        return mismatches([self.maps["fixed"]], [self.maps["rtl"]])
 
 
 def check_fits(pair: "StereoPair", config: Config) -> None:
@@ -99,11 +102,13 @@ def measure(pair: "StereoPair", config: Config, engine: Engine) -> Measurement:
 
 def _simulate(pair: "StereoPair", config: Config, measurement: Measurement) -> None:
     from softdepth.sim.frames import run_frames
+    from softdepth.sim.toolchain import find_toolchain
 
+    find_toolchain()  # a missing tool shows now, not after the core's elaboration
     with screen.progress(_TITLES["rtl"], pair.width * pair.height) as advance:
-        frames = run_frames(config, [pair], progress=advance)
+        frames = run_frames(config, [(pair.left, pair.right)], progress=advance)
     measurement.maps["rtl"] = frames.maps[0]
-    measurement.seconds["rtl"] = frames.seconds
+    measurement.seconds["rtl"] = frames.stream.seconds_sim
     measurement.cycles_per_pixel = frames.cycles_per_pixel
     measurement.pixels_per_second = frames.pixels_per_second
 

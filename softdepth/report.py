@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, get_args
 from pydantic import BaseModel
 from rich.table import Table
 
+from softdepth import screen
 from softdepth.config import Config
 from softdepth.measure import Engine, Measurement
 
@@ -67,7 +68,7 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
     """Score every measured map, and gather what was measured."""
     from softdepth.golden.metrics import evaluate
 
-    metrics = {engine: Accuracy() for engine in ENGINES}
+    metrics: dict[Engine, Accuracy] = {engine: Accuracy() for engine in ENGINES}
     if pair.truth is not None:
         for engine, found in measurement.maps.items():
             scores = evaluate(found.disparity, pair.truth, valid=found.valid)
@@ -108,41 +109,34 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     (folder / "report.json").write_text(json.dumps(report.model_dump(), indent=2) + "\n")
 
 
-def table(report: Report) -> Table:
-    """The report as a user reads it."""
+def show(report: Report) -> None:
+    """Print the report as a user reads it."""
+    name, digest = report.config["name"], report.config_hash
+    print(f"{report.pair}, {report.width}x{report.height} = {report.pixels} pixels; {name} ({digest})")
+    screen.console().print(_table(report))
+    if report.rtl_mismatches is None:
+        return
+    print(f"gateware against fixed model: {report.rtl_mismatches} mismatches in {report.pixels} pixels")
+    print(f"{report.cycles_per_pixel:.3f} clock cycles per pixel")
+    print(f"{report.sim_pixels_per_second:,.0f} simulated pixels per second")
+
+
+def _table(report: Report) -> Table:
     table = Table("", "gateware", "fixed", "float", "plain SAD", box=None)
-    table.title, table.title_justify = _title(report), "left"
     for column in table.columns[1:]:
         column.justify = "right"
-    for label, key in (
-        ("bad pixels, off by > 1 px", "bad1"),
-        ("bad pixels, off by > 2 px", "bad2"),
-        ("mean absolute error", "mae"),
-        ("RMS error", "rmse"),
-        ("paper's RMSE, gray levels", "paper_rmse"),
+    for label, key, unit in (
+        ("bad pixels, off by > 1 px", "bad1", " %"),
+        ("bad pixels, off by > 2 px", "bad2", " %"),
+        ("mean absolute error", "mae", " px"),
+        ("RMS error", "rmse", " px"),
+        ("paper's RMSE, gray levels", "paper_rmse", ""),
     ):
-        unit = {"bad1": " %", "bad2": " %", "mae": " px", "rmse": " px"}.get(key, "")
         scores = [getattr(report.metrics[engine], key) for engine in ENGINES]
         table.add_row(label, *("-" if score is None else f"{score:.2f}{unit}" for score in scores))
     seconds = [report.seconds[engine] for engine in ENGINES]
     table.add_row("seconds", *("-" if s is None else f"{s:.1f}" for s in seconds))
-    table.caption, table.caption_justify = _gateware(report), "left"
     return table
-
-
-def _title(report: Report) -> str:
-    name, digest = report.config["name"], report.config_hash
-    return f"{report.pair}, {report.width}x{report.height} = {report.pixels} pixels; {name} ({digest})"
-
-
-def _gateware(report: Report) -> str:
-    if report.rtl_mismatches is None:
-        return "gateware: not run"
-    return (
-        f"gateware against fixed model: {report.rtl_mismatches} mismatches in {report.pixels} pixels\n"
-        f"{report.cycles_per_pixel:.3f} clock cycles per pixel; "
-        f"{report.sim_pixels_per_second:,.0f} simulated pixels per second"
-    )
 
 
 def _tools(simulated: bool) -> dict[str, str | None]:

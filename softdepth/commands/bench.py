@@ -110,7 +110,7 @@ def _preset(config: Config, pair: "StereoPair", rows: int) -> dict[str, float]:
     crop = replace(pair, left=pair.left[:rows], right=pair.right[:rows], truth=None)
     measure.check_fits(crop, config)
     with screen.progress(f"preset {config.name}, gateware", crop.width * crop.height) as advance:
-        frames = run_frames(config, [crop], progress=advance)
+        frames = run_frames(config, [(crop.left, crop.right)], progress=advance)
     screen.note(f"preset {config.name}, models ...")
     return {
         "disparities": config.disparities,

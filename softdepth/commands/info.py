@@ -1,5 +1,7 @@
 """``softdepth info``: what a configuration amounts to, before anything is built."""
 
+import gc
+import warnings
 from typing import Annotated
 
 import typer
@@ -38,7 +40,6 @@ def info(
 
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
-    from softdepth.hdl.core import StereoCore
     from softdepth.hdl.line_buffer import LineBuffer
     from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, result_layout
 
@@ -51,11 +52,24 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "disparity": f"{config.disparity_bits} bits",
         "input payload": f"{PixelPair.size} bits",
         "output payload": f"{result_layout(config).size} bits",
-        "latency": f"{StereoCore(config).latency} clocks after the last pixel of its window",
+        "latency": f"{_latency(config)} clocks after the last pixel of its window",
         "line buffers": f"{memory} bits, {config.min_height - 1} lines of {config.max_width} pixel pairs",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
     }
+
+
+def _latency(config: Config) -> int:
+    from amaranth.hdl import UnusedElaboratable
+
+    from softdepth.hdl.core import StereoCore
+
+    with warnings.catch_warnings():
+        # The core is asked, not built; Amaranth would say so when Python comes to free its cycles.
+        warnings.simplefilter("ignore", UnusedElaboratable)
+        latency = StereoCore(config).latency
+        gc.collect()
+    return latency
 
 
 def _check(config: Config, clock: float, width: int, height: int) -> None:

@@ -13,7 +13,7 @@ from softdepth.errors import InputError
 
 if TYPE_CHECKING:
     from softdepth.golden.images import StereoPair
-    from softdepth.golden.maps import Difference
+    from softdepth.sim.compare import Mismatch
 
 EXIT_MISMATCH = 1
 SHOWN_MISMATCHES = 5
@@ -61,7 +61,7 @@ def run(
         measurement = measure.measure(pair, chosen, engine)
         summary = report.summarise(pair, chosen, measurement)
         report.write(folder, pair, chosen, measurement, summary)
-    screen.console().print(report.table(summary))
+    report.show(summary)
     print(f"results: {output}")
     if mismatches := measurement.mismatches():
         _show(mismatches)
@@ -103,7 +103,7 @@ def _read(
     return replace(pair, truth=read_truth(truth, scale=scale, shape=shape, view=config.reference))
 
 
-def _show(mismatches: "list[Difference]") -> None:
+def _show(mismatches: "list[Mismatch]") -> None:
     screen.note(f"error: gateware and fixed-point model differ in {len(mismatches)} pixels, first of them:")
-    for difference in islice(mismatches, SHOWN_MISMATCHES):
-        screen.note(f"  frame=0 {difference}")
+    for mismatch in islice(mismatches, SHOWN_MISMATCHES):
+        screen.note(f"  {mismatch}")

@@ -1,0 +1,87 @@
+"""A pair on disk, and the command line as a function."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from softdepth.cli import main
+from softdepth.golden.images import read_image
+from softdepth.golden.synthetic import generate
+from softdepth.golden.writers import write_pfm, write_picture
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command left behind: exit code and both streams."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def error(self) -> str:
+        """The one line that tells the user; fails where there is more or less than one, or no remedy."""
+        lines = [line for line in self.err.splitlines() if line.startswith("error: ")]
+        assert len(lines) == 1, self.err
+        assert "; " in lines[0], f"no remedy in '{lines[0]}'"
+        assert "Traceback" not in self.err
+        return lines[0]
+
+
+@pytest.fixture
+def softdepth(capfd: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
+    """Run the command line in this process."""
+
+    def command(*arguments: object) -> Outcome:
+        capfd.readouterr()
+        code = main([str(argument) for argument in arguments])
+        out, err = capfd.readouterr()
+        return Outcome(code, out, err)
+
+    return command
+
+
+@dataclass(frozen=True)
+class Files:
+    """A small pair and its truth, as files."""
+
+    left: Path
+    right: Path
+    truth: Path
+    folder: Path
+
+    def gray_right(self) -> Path:
+        """The right image without its colour."""
+        path = self.folder / "gray.png"
+        cv2.imwrite(str(path), read_image(self.right)[0][:, :, 1])
+        return path
+
+    def cropped(self, path: Path, columns: int) -> Path:
+        """A copy of an image with fewer columns."""
+        target = self.folder / f"crop{columns}.png"
+        write_picture(target, read_image(path)[0][:, :columns])
+        return target
+
+    def cropped_truth(self, columns: int) -> Path:
+        """The truth with fewer columns."""
+        target = self.folder / "crop.pfm"
+        write_pfm(target, np.full((30, columns), 3.0))
+        return target
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> Files:
+    """A 48x30 scene with disparities below 16."""
+    pair = generate("random", width=48, height=30, disparities=16, seed=3)
+    assert pair.truth is not None
+    folder = tmp_path / "input"
+    folder.mkdir()
+    found = Files(folder / "left.png", folder / "right.png", folder / "truth.pfm", folder)
+    write_picture(found.left, pair.left)
+    write_picture(found.right, pair.right)
+    write_pfm(found.truth, pair.truth.disparity)
+    return found

@@ -1,0 +1,135 @@
+"""Export, info, the lists, and the command line as a whole."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import version
+
+import pytest
+
+from softdepth import cli
+from softdepth.commands.info import facts
+from softdepth.config import PRESETS, Config
+from softdepth.golden import datasets
+
+SMALL = ("--disparities", 4, "--lanes", 2, "--set", "max_width=16")
+
+
+def toml_in(text: str) -> str:
+    """The configuration in a header comment."""
+    lines = text[: text.index("\n\n")].splitlines()
+    start = next(i for i, line in enumerate(lines) if "as softdepth --config reads it" in line)
+    return "\n".join(line.removeprefix("//").removeprefix("   ") for line in lines[start + 1 :])
+
+
+def test_export_writes_the_core_and_says_what_it_is(softdepth, tmp_path):
+    path = tmp_path / "core.v"
+    assert softdepth("export", "--preset", "lite", *SMALL, "-o", path).code == 0
+    text = path.read_text()
+    config = Config.preset("lite").override(["disparities=4", "lanes=2", "max_width=16"])
+    assert config.hash in text
+    assert version("softdepth") in text
+    assert "module softdepth_core(" in text
+    assert Config.from_dict(tomllib.loads(toml_in(text))) == config
+
+
+def test_export_lists_every_port_with_its_width(softdepth):
+    text = softdepth("export", *SMALL, "-o", "-").out
+    module = text[text.index("module softdepth_core(") :]
+    names = module[module.index("(") + 1 : module.index(")")].split(", ")
+    listed = {name: int(bits) for bits, name in re.findall(r"^//   (?:in|out)put +(\d+) (\w+)$", text, re.M)}
+    assert sorted(listed) == sorted(names)
+    assert listed["clk"] == 1
+    assert f"[{listed['i__payload'] - 1}:0] i__payload;" in module
+    assert "//   i__payload[23:0] left" in text
+    assert "//   o__payload[1:0] disparity" in text
+
+
+def test_export_does_not_depend_on_the_output(softdepth, tmp_path):
+    path = tmp_path / "core.v"
+    softdepth("export", *SMALL, "-o", path)
+    assert softdepth("export", *SMALL, "-o", "-").out == path.read_text()
+
+
+@pytest.mark.parametrize(
+    ("target", "problem"),
+    [("no/folder/core.v", "does not exist"), (".", "is a folder"), ("file/core.v", "file")],
+)
+def test_export_where_nothing_can_be_written(softdepth, tmp_path, target, problem):
+    (tmp_path / "file").write_text("mine")
+    outcome = softdepth("export", *SMALL, "-o", tmp_path / target)
+    assert outcome.code == 2
+    assert problem in outcome.error
+    assert [file.name for file in tmp_path.iterdir()] == ["file"]
+
+
+def test_export_without_gateware(softdepth, tmp_path):
+    outcome = softdepth("export", *SMALL, "--operator", "soft_min_1", "-o", tmp_path / "core.v")
+    assert outcome.code == 2
+    assert "soft_min_1" in outcome.error
+    assert not list(tmp_path.iterdir())
+
+
+def test_info_derives_the_figures():
+    config = Config.preset("paper").override(["lanes=8", "max_width=640"])
+    found = facts(config, 100, 640, 480)
+    assert found["clocks per pixel"] == "8"
+    assert found["clocks per frame"] == f"{640 * 480 * 8} at 640x480"
+    assert found["frames per second"] == "40.7 at 100 MHz"
+    assert found["line buffers"].startswith(f"{6 * 640 * 48} bits")
+    assert found["window support"] == "7 x 7 pixels"
+
+
+def test_info_prints_them(softdepth):
+    outcome = softdepth("info", "--preset", "sad", "--clock", 50, "--width", 100, "--height", 80)
+    assert outcome.code == 0
+    for label, text in facts(Config.preset("sad"), 50, 100, 80).items():
+        assert label in outcome.out
+        assert text in outcome.out
+
+
+@pytest.mark.parametrize(
+    "arguments", [("--width", 5), ("--width", 1281), ("--height", 1081), ("--clock", 0), ("--clock", "nan")]
+)
+def test_info_refuses_what_does_not_fit(softdepth, arguments):
+    outcome = softdepth("info", *arguments)
+    assert outcome.code == 2
+    assert f"{arguments[0]} {arguments[1]} " in outcome.error
+
+
+def test_lists(softdepth):
+    assert softdepth("datasets").out.split() == list(datasets.names())
+    presets = softdepth("presets").out
+    for name in PRESETS:
+        assert name in presets
+        assert Config.preset(name).hash in presets
+
+
+def test_version_and_help(softdepth):
+    assert softdepth("--version").out == f"softdepth {version('softdepth')}\n"
+    for arguments in ((), ("--help",)):
+        outcome = softdepth(*arguments)
+        assert outcome.code == 0
+        assert "run" in outcome.out
+    assert softdepth("frobnicate").error == "error: No such command 'frobnicate'; see softdepth --help"
+
+
+def test_help_loads_nothing_heavy():
+    script = (
+        "import sys; from softdepth.cli import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = {name.partition(".")[0] for name in done.stderr.split()}
+    assert loaded & {"typer", "softdepth"} == {"typer", "softdepth"}
+    assert not loaded & {"cv2", "amaranth", "matplotlib", "skimage", "cocotb", "numpy"}
+
+
+def test_ctrl_c_is_no_error(softdepth, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Config, "preset", interrupt)
+    outcome = softdepth("info")
+    assert outcome.code == cli.EXIT_INTERRUPTED
+    assert outcome.err == ""

@@ -1,0 +1,49 @@
+"""``softdepth run`` with the simulated gateware."""
+
+import json
+
+import numpy as np
+import pytest
+
+from softdepth import measure
+from softdepth.golden.maps import DisparityMap
+
+SMALL = ("--disparities", 4, "--lanes", 4, "--set", "max_width=64", "--preset", "lite")
+
+
+@pytest.mark.slow
+def test_gateware_gives_the_result_and_is_compared(softdepth, files, tmp_path):
+    arguments = ("--gt", files.truth, *SMALL)
+    outcome = softdepth("run", files.left, files.right, *arguments, "-o", tmp_path / "rtl")
+    assert outcome.code == 0, outcome.err
+    report = json.loads((tmp_path / "rtl" / "report.json").read_text())
+    assert report["rtl_mismatches"] == 0
+    assert report["pixels"] == 48 * 30
+    assert report["cycles_per_pixel"] == pytest.approx(1, abs=0.05)
+    assert report["sim_pixels_per_second"] > 0
+    assert report["metrics"]["rtl"] == report["metrics"]["fixed"]
+    assert report["tools"]["verilator"]
+    assert "0 mismatches in 1440 pixels" in outcome.out
+    softdepth("run", files.left, files.right, *arguments, "--engine", "fixed", "-o", tmp_path / "fixed")
+    for name in ("disparity.png", "disparity.pfm", "overview.png", "error.png"):
+        assert (tmp_path / "rtl" / name).read_bytes() == (tmp_path / "fixed" / name).read_bytes()
+
+
+def test_a_mismatch_is_shown_and_fails(softdepth, files, tmp_path, monkeypatch):
+    def simulate(pair, config, measurement):
+        from softdepth.golden import fixed_model
+
+        right = fixed_model.disparity(pair.left, pair.right, config)
+        wrong = right.disparity.copy()
+        wrong[7, 11] ^= 1
+        wrong[8, 9] ^= 2
+        measurement.maps["rtl"] = DisparityMap(wrong, right.code)
+        measurement.cycles_per_pixel = measurement.pixels_per_second = np.pi
+
+    monkeypatch.setattr(measure, "_simulate", simulate)
+    outcome = softdepth("run", files.left, files.right, *SMALL, "-o", tmp_path / "out")
+    assert outcome.code == 1
+    assert "differ in 2 pixels" in outcome.err
+    assert "frame 0 y=7 x=11: expected" in outcome.err
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["rtl_mismatches"] == 2

@@ -1,5 +1,6 @@
 """``softdepth export``: a configured core as Verilog."""
 
+import os
 import re
 from importlib.metadata import version
 from pathlib import Path
@@ -10,6 +11,7 @@ import typer
 from softdepth import screen
 from softdepth.commands import options
 from softdepth.config import Config
+from softdepth.errors import InputError
 
 if TYPE_CHECKING:
     from amaranth.lib.data import StructLayout
@@ -32,16 +34,29 @@ def export(
     chosen = options.configuration(
         preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
     )
+    on_screen = str(output) == "-"
+    if not on_screen:
+        _check_target(output)
     from softdepth.golden.writers import write_atomically
     from softdepth.hdl.verilog import TOP, to_verilog
 
     verilog = to_verilog(chosen)
     text = header(chosen, verilog) + verilog
-    if str(output) == "-":
+    if on_screen:
         print(text, end="")
         return
     write_atomically(output, text.encode())
     screen.note(f"{output}: module {TOP}, configuration {chosen.name} ({chosen.hash})")
+
+
+def _check_target(output: Path) -> None:
+    """Raise `InputError` where no file can be written, before the core is elaborated."""
+    if output.is_dir():
+        raise InputError(f"'{output}' is a folder", "name a file in it")
+    if not output.parent.is_dir():
+        raise InputError(f"folder '{output.parent}' does not exist", "create it first")
+    if not os.access(output.parent, os.W_OK):
+        raise InputError(f"folder '{output.parent}' may not be written", "choose another with -o")
 
 
 def header(config: Config, verilog: str) -> str:

@@ -54,7 +54,7 @@ def test_export_does_not_depend_on_the_output(softdepth, tmp_path):
 
 @pytest.mark.parametrize(
     ("target", "problem"),
-    [("no/folder/core.v", "does not exist"), (".", "is a folder"), ("file/core.v", "file")],
+    [("no/folder/core.v", "does not exist"), (".", "is a folder"), ("file/core.v", "does not exist")],
 )
 def test_export_where_nothing_can_be_written(softdepth, tmp_path, target, problem):
     (tmp_path / "file").write_text("mine")

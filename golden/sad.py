@@ -14,24 +14,23 @@ def sad(criterion: Sad, left: Planes, right: Planes) -> NDArray[np.int32]:
 
     ``SAD = sum over the window, and over R, G, B, of |left - right|``, at most `criterion.maximum`.
     """
-    return box_sum(absolute_difference(left, right), criterion.window, criterion.maximum)
+    return box_sum(absolute_difference(left, right), criterion.window)
 
 
-def absolute_difference(left: Planes, right: Planes) -> NDArray[np.uint16]:
+def absolute_difference(left: Planes, right: Planes) -> NDArray[np.int32]:
     """Sum over the channels of |left - right|: planes of one shape in, rows x columns out."""
     # Larger minus smaller stays within 8 bits, which NumPy handles fastest.
     difference = np.maximum(left, right) - np.minimum(left, right)
-    return difference.sum(axis=0, dtype=np.uint16)
+    return difference.sum(axis=0, dtype=np.int32)
 
 
-def box_sum(values: NDArray[np.uint16], window: int, maximum: int) -> NDArray[np.int32]:
-    """Sums over every full ``window x window`` box of `values`; no sum exceeds `maximum`."""
-    dtype = np.min_scalar_type(maximum)
+def box_sum(values: NDArray[np.int32], window: int) -> NDArray[np.int32]:
+    """Sums over every full ``window x window`` box of `values`."""
     height, width = (n - window + 1 for n in values.shape)
-    rows = values[:height].astype(dtype)
+    columns = values[:height].copy()
     for i in range(1, window):
-        rows += values[i : i + height]
-    sums = rows[:, :width].astype(np.int32)
+        columns += values[i : i + height]
+    sums = columns[:, :width].copy()
     for i in range(1, window):
-        sums += rows[:, i : i + width]
+        sums += columns[:, i : i + width]
     return sums

@@ -116,6 +116,15 @@ def test_disparity_is_the_first_minimum_of_the_costs(operator, reference):
                 assert (excluded > 0) == (result.code[y, x] == Validity.PARTIAL)
 
 
+@pytest.mark.parametrize("operator", OPERATORS)
+def test_a_tie_goes_to_the_smallest_disparity(operator):
+    flat = np.full((9, 20, 3), 90, np.uint8)
+    assert not float_model.disparity(flat, flat, make(operator=operator)).disparity.any()
+    period = np.tile(noise(9, 3), (1, 8, 1))  # repeats every 3 pixels: 1 and 4 tie
+    result = float_model.disparity(period, np.roll(period, -1, axis=1), make(operator=operator))
+    assert (result.disparity[3:-3, 5:-4] == 1).all()
+
+
 def test_literal_and_top_differ_from_off_in_the_map():
     left, right = noise(20, 30), noise(20, 30, 1)
     maps = [

@@ -19,7 +19,6 @@ Progress = Callable[[int], None]
 """Called now and then, from another thread, with the number of results so far."""
 
 POLL_SECONDS = 0.2
-LOG_TAIL_LINES = 3
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ def run_stream(
     seconds = time.monotonic() - start
     record_path = path.with_suffix(RECORD_SUFFIX)
     if failure is not None or not record_path.exists():
-        raise ToolError(f"the simulator stopped: {_tail(folder / 'log')}", f"see {folder / 'log'}")
+        raise ToolError(f"the simulator stopped: {_reason(folder / 'log')}", f"see {folder / 'log'}")
     record = Record.load(record_path)
     if waves is not None:
         shutil.move(folder / "dump.vcd", waves)
@@ -73,8 +72,10 @@ def run_stream(
 
 def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> BaseException | None:
     """Start the program with the bench; returns what cocotb's runner made of a failure."""
+    runner = get_runner("verilator")
+    runner.log.disabled = True  # what it says on the terminal is in the log too
     try:
-        get_runner("verilator").test(
+        runner.test(
             test_module="softdepth.sim.bench",
             hdl_toplevel=TOP,
             hdl_toplevel_lang="verilog",
@@ -114,6 +115,8 @@ def _reports(path: Path, progress: Progress | None) -> Iterator[None]:
         watcher.join()
 
 
-def _tail(log: Path) -> str:
-    lines = log.read_text(errors="replace").splitlines() if log.exists() else []
-    return " / ".join(line.strip() for line in lines[-LOG_TAIL_LINES:]) or "it left no log"
+def _reason(log: Path) -> str:
+    """The last line that names an error, or else the last line."""
+    lines = log.read_text(errors="replace").split("\n") if log.exists() else []
+    lines = [line.strip() for line in lines if line.strip()] or ["it left no log"]
+    return next((line for line in reversed(lines) if "Error: " in line), lines[-1])

@@ -16,6 +16,7 @@ hand_over() { # uv's variable, pip's value
 hand_over UV_DEFAULT_INDEX "${PIP_INDEX_URL:-$(setting index-url)}"
 hand_over ALL_PROXY "${PIP_PROXY:-$(setting proxy)}"
 hand_over SSL_CERT_FILE "${PIP_CERT:-$(setting cert)}"
+hand_over UV_SYSTEM_CERTS 1
 
 awk '/^[^ ]/ { keep = /^uv==/ } keep' requirements.lock >"$venv/uv.lock"
 if ! { "$bin/pip" install --quiet --disable-pip-version-check --require-hashes -r "$venv/uv.lock" &&

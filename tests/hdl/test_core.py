@@ -1,0 +1,202 @@
+"""StereoCore on small frames, against the fixed model: every pixel, code and marker."""
+
+from itertools import chain, pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from softdepth.config import Config
+from softdepth.golden.fixed_model import disparity
+from softdepth.golden.maps import DisparityMap
+from softdepth.hdl.core import StereoCore
+from softdepth.validity import Validity
+
+from .support import Transfers, config, pair, sad, stream_through
+
+Images = NDArray[np.uint8]
+
+
+def images(seed: int, width: int, height: int, shift: int = 2) -> tuple[Images, Images]:
+    """A noisy texture, seen ``shift`` pixels apart; rows alternate between dim and bright."""
+    rng = np.random.default_rng(seed)
+    scene = rng.integers(0, 256, (height, width + shift, 3))
+    scene[::2] //= 8  # many small differences, and ties
+    noise = rng.integers(-20, 21, (2, height, width, 3))
+    left, right = np.clip(np.stack((scene[:, :width], scene[:, shift:])) + noise, 0, 255).astype(np.uint8)
+    return left, right
+
+
+def transfers(left: Images, right: Images, *, eof: bool = True) -> list[int]:
+    height, width, _ = left.shape
+
+    def packed(pixel: NDArray[np.uint8]) -> int:
+        red, green, blue = map(int, pixel)
+        return red | green << 8 | blue << 16
+
+    return [
+        pair(
+            packed(left[y, x]),
+            packed(right[y, x]),
+            sof=(x, y) == (0, 0),
+            eol=x == width - 1,
+            eof=eof and (x, y) == (width - 1, height - 1),
+        )
+        for y in range(height)
+        for x in range(width)
+    ]
+
+
+def check(payloads: list[Any], expected: list[DisparityMap]) -> None:
+    """All results of all frames, in order, undamaged."""
+    assert len(payloads) == sum(found.code.size for found in expected)
+    results = iter(payloads)
+    for number, frame in enumerate(expected):
+        height, width = frame.code.shape
+        for y in range(height):
+            for x in range(width):
+                o = next(results)
+                where = f"frame {number}, y={y} x={x}"
+                assert (o.disparity, o.code) == (frame.disparity[y, x], frame.code[y, x]), where
+                assert bool(o.sof) == ((x, y) == (0, 0)), where
+                assert bool(o.eol) == (x == width - 1), where
+                assert bool(o.eof) == ((x, y) == (width - 1, height - 1)), where
+                assert not o.damaged, where
+
+
+def run(c: Config, pairs: list[tuple[Images, Images]], **keys: Any) -> Transfers:
+    return stream_through(StereoCore(c), list(chain.from_iterable(transfers(*p) for p in pairs)), **keys)
+
+
+FUZZY = {"membership_bits": 6, "compensation": {"reading": "top", "min_disparity": 3, "threshold": 900}}
+NEST = [sad(3, label_bits=9), sad(5, label_bits=11), sad(7, label_bits=12)]
+ROW = [sad(3, dx, label_bits=10) for dx in (-2, 0, 2)]
+CONFIGS: dict[str, Config] = {
+    "sad, 1 lane": config(cost="sad", criteria=[sad(3)], disparities=8, lanes=1),
+    "sad, 2 lanes, 3 steps": config(cost="sad", criteria=[sad(5)], disparities=6, lanes=2),
+    "sad, all lanes": config(cost="sad", criteria=[sad(3)], disparities=5, lanes=5),
+    "sad, beside": config(cost="sad", criteria=[sad(3, 3)], disparities=6, lanes=3),
+    "sad, nothing to the right": config(cost="sad", criteria=[sad(3, -1)], disparities=4, lanes=2),
+    "sad, memory rings": config(cost="sad", criteria=[sad(3)], disparities=20, lanes=2),
+    "lite, mean, 2 lanes, 3 steps": config(criteria=ROW, disparities=6, lanes=2, **FUZZY),
+    "lite, min, all lanes": config(criteria=ROW, disparities=4, lanes=4, operator="min", **FUZZY),
+    "paper, mean, 1 lane": config(criteria=NEST, disparities=6, lanes=1, **FUZZY),
+    "paper, min, 3 lanes": config(criteria=NEST, disparities=6, lanes=3, operator="min", rules="corrected"),
+}
+
+
+def pairs_for(c: Config) -> list[tuple[Images, Images]]:
+    """Two frames of one size, one of a single support, and a wide one that has all candidates."""
+    w, h = c.min_width, c.min_height
+    return [
+        images(1, w + 3, h + 1, 1),
+        images(2, w + 3, h + 1, 3),
+        images(3, w, h, 0),
+        images(4, w + c.disparities + 1, h + 1, 2),
+    ]
+
+
+@pytest.mark.parametrize("stalls", [False, True])
+@pytest.mark.parametrize("name", CONFIGS)
+def test_equals_the_fixed_model(name: str, stalls: bool) -> None:
+    c = CONFIGS[name]
+    pairs = pairs_for(c)[2 * stalls :]
+    rates = {"i_rate": 0.6, "o_rate": 0.5} if stalls else {}
+    result = run(c, pairs, seed=7, **rates)
+    expected = [disparity(*p, c) for p in pairs]
+    check(result.payloads, expected)
+    assert result.status == {}
+    codes = {int(code) for frame in expected for code in np.unique(frame.code)}
+    assert codes == {Validity.FULL, Validity.PARTIAL, Validity.BORDER}
+    assert len({int(d) for frame in expected for d in np.unique(frame.disparity)}) > 2
+
+
+@pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "sad, all lanes", "lite, mean, 2 lanes, 3 steps"])
+def test_one_result_every_so_many_clocks(name: str) -> None:
+    """From the first result to the last that a pixel brings, over lines and frames."""
+    c = CONFIGS[name]
+    pairs = [images(k, c.min_width + 2, c.min_height + 1) for k in range(3)]
+    result = run(c, pairs)
+    by_themselves = c.reach_rows * (c.min_width + 2) + c.reach_right
+    given = result.given[: len(result.given) - by_themselves]
+    assert {b - a for a, b in pairwise(given)} == {c.steps}
+    taken = result.taken
+    assert {b - a for a, b in pairwise(taken)} == {c.steps}
+
+
+@pytest.mark.parametrize("name", ["sad, 1 lane", "sad, all lanes", "lite, mean, 2 lanes, 3 steps"])
+def test_latency_is_as_stated(name: str) -> None:
+    c = CONFIGS[name]
+    width, height = c.min_width + 2, c.min_height + 1
+    dut = StereoCore(c)
+    result = stream_through(dut, transfers(*images(1, width, height)), i_rate=0.04)
+    behind = c.reach_rows * width + c.reach_right
+    with_pixels = width * height - behind
+    clocks = [result.given[k] - result.taken[k + behind] for k in range(with_pixels)]
+    assert set(clocks) == {dut.latency}
+
+
+@pytest.mark.parametrize("name", ["sad, 1 lane", "sad, all lanes"])
+def test_back_pressure_reaches_the_input(name: str) -> None:
+    """Results are hardly taken: pixels wait outside as soon as the result FIFO is promised."""
+    c = CONFIGS[name]
+    pairs = pairs_for(c)[:2]
+    dut = StereoCore(c)
+    result = stream_through(dut, list(chain.from_iterable(transfers(*p) for p in pairs)), o_rate=0.05, seed=3)
+    check(result.payloads, [disparity(*p, c) for p in pairs])
+    behind = c.reach_rows * pairs[0][0].shape[1] + c.reach_right
+    promised = [
+        sum(t < given for t in result.taken) - behind - k
+        for k, given in enumerate(result.given[: -behind - 1])
+    ]
+    assert max(promised) == dut.fifo_depth
+
+
+@pytest.mark.parametrize("reset_at", [1, 33])
+@pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "paper, mean, 1 lane"])
+def test_reset_in_a_frame(name: str, reset_at: int) -> None:
+    c = CONFIGS[name]
+    broken, *sound = pairs_for(c)
+    sent = transfers(*broken)[:reset_at] + list(chain.from_iterable(transfers(*p) for p in sound[:2]))
+    result = stream_through(StereoCore(c), sent, reset_at=reset_at)
+    check(result.payloads[result.before_reset :], [disparity(*p, c) for p in sound[:2]])
+    assert result.status == {}
+
+
+def test_without_end_of_frame_markers() -> None:
+    c = CONFIGS["sad, 2 lanes, 3 steps"]
+    pairs = [images(k, c.min_width + 3, c.min_height + 1) for k in range(3)]
+    sent = list(chain.from_iterable(transfers(*p, eof=False) for p in pairs))
+    check(stream_through(StereoCore(c), sent).payloads, [disparity(*p, c) for p in pairs])
+
+
+def test_the_frame_after_a_damaged_one_is_exact() -> None:
+    c = CONFIGS["lite, mean, 2 lanes, 3 steps"]
+    first, second, *rest = pairs_for(c)
+    width = second[0].shape[1]
+    sent = transfers(*second)
+    del sent[width * 2 + 3]  # a short line
+    result = stream_through(
+        StereoCore(c), [*transfers(*first), *sent, *chain.from_iterable(transfers(*p) for p in rest)]
+    )
+    pixels = second[0][..., 0].size
+    check(result.payloads[:pixels], [disparity(*first, c)])
+    marked = [bool(o.damaged) for o in result.payloads[pixels : 2 * pixels]]
+    assert marked == sorted(marked)
+    assert marked[-1]
+    check(result.payloads[2 * pixels :], [disparity(*p, c) for p in rest])
+    assert result.status == {"short_lines": 1}
+
+
+@pytest.mark.parametrize("dx", [0, 2, -2])
+def test_support_of_one_row(dx: int) -> None:
+    c = config(cost="sad", criteria=[sad(1, dx)], disparities=6, lanes=2)
+    pairs = [images(k, 9 + k // 2, 3) for k in range(3)]
+    check(run(c, pairs).payloads, [disparity(*p, c) for p in pairs])
+
+
+def test_frames_lower_than_the_support() -> None:
+    c = CONFIGS["sad, 1 lane"]
+    pairs = [images(k, 7, height) for k, height in enumerate((1, 2, 5, 1, 4))]
+    check(run(c, pairs, o_rate=0.7).payloads, [disparity(*p, c) for p in pairs])

@@ -1,0 +1,57 @@
+"""Lane: from columns to a candidate's cost."""
+
+from random import Random
+from typing import Any
+
+import pytest
+
+from softdepth.hdl.lane import Lane
+
+from .expected import fraction, window_sums
+from .support import Ports, config, observe, sad
+
+TOP = {"reading": "top", "threshold": 1500}
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"cost": "sad", "criteria": [sad(5, 1)]},
+        {"operator": "mean", "criteria": [sad(3, -1, 10), sad(3, 0, 10), sad(1, 2, 9)], "compensation": TOP},
+        {"operator": "min", "criteria": [sad(1, 0, 8), sad(3, 0, 11), sad(5, 0, 12)], "compensation": TOP},
+    ],
+)
+def test_cost_of_every_candidate(keys: dict[str, Any]) -> None:
+    c = config(disparities=4, lanes=2, **keys)
+    random = Random(6)
+
+    def columns(count: int, scale: int) -> list[list[list[int]]]:
+        return [
+            [[random.randrange(scale) for _ in range(3)] for _ in range(c.min_height)] for _ in range(count)
+        ]
+
+    pixels = c.min_width + 10
+    left = columns(pixels, 256)
+    right = [columns(pixels, scale) for scale in (256, 128)]  # one set of columns a step
+    near = [[random.getrandbits(1) for _ in range(c.steps)] for _ in range(pixels)]
+    dut = Lane(c)
+    clocks: list[dict[str, Any]] = [{"valid": 0} for _ in range(4 * pixels + dut.latency)]
+    entered: list[tuple[int, int, int]] = []
+    clock = 0
+    for p in range(pixels):
+        clock += random.choice((0, 0, 1, 2))
+        for k in range(c.steps):
+            clocks[clock] |= {"valid": 1, "left": left[p], "right": right[k][p]}
+            clocks[clock + dut.criteria_latency]["near"] = near[p][k]
+            entered.append((clock, p, k))
+            clock += 1
+    drive: list[Ports] = list(clocks)
+    num = observe(dut, drive, "num")
+    den = observe(dut, drive, "den") if c.cost == "fuzzy" else [1] * len(num)
+
+    sums = [window_sums(left, right[k], c) for k in range(c.steps)]
+    for clock, p, k in entered:
+        if p >= c.reach_left + c.reach_right:
+            at = clock + dut.latency
+            assert (num[at], den[at]) == fraction(sums[k][p], bool(near[p][k]), c), (p, k)
+    assert dut.num_maximum >= max(num)

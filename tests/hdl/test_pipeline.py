@@ -1,0 +1,145 @@
+"""Pipeline: ranges, widths and alignment, with the extremes of every range."""
+
+import itertools
+from collections.abc import Callable, Sequence
+from random import Random
+from typing import Any
+
+import pytest
+from amaranth.hdl import Module, Shape, signed
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
+
+from .support import piped
+
+Range = tuple[int, int]
+Build = Callable[[Pipeline, Sequence[Word]], Word]
+
+
+class Arithmetic(wiring.Component):
+    """One expression over inputs of given ranges; ``word`` is what the pipeline says of its result."""
+
+    def __init__(self, ranges: Sequence[Range], latency: int, build: Build) -> None:
+        self.ranges = ranges
+        self.latency = latency
+        self.build = build
+        shapes = {f"a{k}": Shape.cast(range(low, high + 1)) for k, (low, high) in enumerate(ranges)}
+        super().__init__({"i": In(data.StructLayout(shapes)), "o": Out(signed(48))})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        pipeline = Pipeline(m)
+        inputs = [
+            pipeline.input(self.i[f"a{k}"], high, minimum=low) for k, (low, high) in enumerate(self.ranges)
+        ]
+        self.word = self.build(pipeline, inputs)
+        m.d.comb += self.o.eq(self.word.value)
+        return m
+
+
+def check(ranges: Sequence[Range], latency: int, build: Build, function: Callable[..., int]) -> Word:
+    """Compare an expression with a function, at all extremes and at random; gives its word."""
+    random = Random(1)
+    corners = list(itertools.islice(itertools.product(*ranges), 64))
+    inputs = [*corners, *([random.randint(*r) for r in ranges] for _ in range(100))]
+    inputs.append([low for low, _ in ranges])
+    inputs.append([high for _, high in ranges])
+    random.shuffle(inputs)
+    dut = Arithmetic(ranges, latency, build)
+    got = piped(dut, [{"i": {f"a{k}": v for k, v in enumerate(values)}} for values in inputs])
+    assert got == [function(*values) for values in inputs]
+    assert dut.word.time == latency
+    assert dut.word.minimum == min(got)
+    assert dut.word.maximum == max(got)
+    assert dut.word.value.shape() == Shape.cast(range(dut.word.minimum, dut.word.maximum + 1))
+    return dut.word
+
+
+RANGES: list[tuple[Range, Range]] = [
+    ((0, 255), (0, 255)),
+    ((0, 1), (0, 256)),
+    ((-5, 3), (-128, 127)),
+    ((-7, -2), (-3, -1)),
+    ((-4, -1), (0, 9)),
+    ((-300, 5), (0, 511)),
+    ((0, 0), (-1, 1)),
+]
+
+
+@pytest.mark.parametrize(("a", "b"), RANGES)
+def test_add(a: Range, b: Range) -> None:
+    check([a, b], 1, lambda p, w: p.add(w[0], w[1]), lambda x, y: x + y)
+
+
+@pytest.mark.parametrize(("a", "b"), RANGES)
+def test_max(a: Range, b: Range) -> None:
+    check([a, b], 1, lambda p, w: p.max(w[0], w[1]), max)
+
+
+@pytest.mark.parametrize(("a", "b"), RANGES)
+def test_min(a: Range, b: Range) -> None:
+    check([a, b], 1, lambda p, w: p.min(w[0], w[1]), min)
+
+
+@pytest.mark.parametrize("bits", [0, 1, 5])
+@pytest.mark.parametrize("a", [(0, 255), (-9, 100), (-16, -1)])
+def test_shifted_takes_no_clock(a: Range, bits: int) -> None:
+    dut = Arithmetic([a], 0, lambda p, w: p.shifted(w[0], bits))
+    values = list(range(a[0], a[1] + 1))
+    assert piped(dut, [{"i": {"a0": v}} for v in values]) == [v * 2**bits for v in values]
+    assert (dut.word.minimum, dut.word.maximum, dut.word.time) == (a[0] * 2**bits, a[1] * 2**bits, 0)
+
+
+@pytest.mark.parametrize("count", range(1, 10))
+def test_sum_of_any_number_of_words(count: int) -> None:
+    ranges = [(-k, 255 + k) for k in range(count)]
+    check(ranges, tree_latency(count), lambda p, w: p.sum(w), lambda *values: sum(values))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
+def test_tree_of_maxima(count: int) -> None:
+    ranges = [(-k, 20 - 3 * k) for k in range(count)]
+    check(ranges, tree_latency(count), lambda p, w: p.tree(p.max, w), lambda *values: max(values))
+
+
+@pytest.mark.parametrize(("count", "latency"), [(1, 0), (2, 1), (3, 2), (4, 2), (5, 3), (16, 4), (17, 5)])
+def test_tree_latency(count: int, latency: int) -> None:
+    assert tree_latency(count) == latency
+
+
+def test_operands_of_different_clocks_are_aligned() -> None:
+    def build(p: Pipeline, w: Sequence[Word]) -> Word:
+        late = p.add(p.add(p.add(w[0], w[1]), w[2]), w[0])
+        return p.max(p.add(late, w[1]), p.shifted(w[2], 2))
+
+    check([(0, 15), (-8, 7), (0, 9)], 5, build, lambda a, b, c: max(2 * a + 2 * b + c, 4 * c))
+
+
+def test_inputs_may_arrive_later() -> None:
+    """The second input is said to come two clocks after the first: it is paired with what came then."""
+
+    def build(p: Pipeline, w: Sequence[Word]) -> Word:
+        late = p.input(w[1].value, w[1].maximum, time=2)
+        return p.add(w[0], late)
+
+    dut = Arithmetic([(0, 255), (0, 255)], 3, build)
+    random = Random(3)
+    first, second = ([random.getrandbits(8) for _ in range(30)] for _ in range(2))
+    clocks: list[Any] = [{"i": {"a0": a, "a1": b}} for a, b in zip(first, second, strict=True)]
+    got = piped(dut, clocks)
+    assert got[:28] == [a + b for a, b in zip(first, second[2:], strict=False)]
+
+
+def test_at_delays_and_never_looks_ahead() -> None:
+    check([(-3, 12)], 4, lambda p, w: p.at(w[0], 4), lambda a: a)
+
+    def early(p: Pipeline, w: Sequence[Word]) -> Word:
+        word = p.input(w[0].value, 1, time=3)
+        assert p.at(word, 3) == word
+        with pytest.raises(ValueError, match="clock 3 is not there at clock 2"):
+            p.at(word, 2)
+        return word
+
+    piped(Arithmetic([(0, 1)], 3, early), [{}])

@@ -23,13 +23,13 @@ class Compensation(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self.maxima = [
-            max(c.maximum, _replacement(config, c.label_bits)) for c in config.criteria
-        ]
+        self.maxima = [max(c.maximum, _replacement(config, c.label_bits)) for c in config.criteria]
         super().__init__(
             {
                 "near": In(1),
-                "i": In(data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(config.criteria)})),
+                "i": In(
+                    data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(config.criteria)})
+                ),
                 "o": Out(data.StructLayout({f"s{i}": range(n + 1) for i, n in enumerate(self.maxima)})),
             }
         )

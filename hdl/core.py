@@ -17,7 +17,6 @@ from softdepth.hdl.sequencer import Sequencer, tags_layout
 from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
 from softdepth.validity import Validity
 
-
 FIFO_LATENCY = 2
 """Clocks from a write into the result FIFO to its output."""
 
@@ -110,7 +109,9 @@ class StereoCore(wiring.Component):
 
         m.submodules.tree = self._tree
         near = self._near(m, control.at(step, self._criteria_time - 1))
-        excluded = self._excluded(m, control.at(step, self._cost_time - 1), control.at(room, self._cost_time - 1))
+        excluded = self._excluded(
+            m, control.at(step, self._cost_time - 1), control.at(room, self._cost_time - 1)
+        )
         for k, lane in enumerate(self._lanes):
             m.submodules[f"lane_{k}"] = lane
             m.d.comb += [

@@ -44,10 +44,7 @@ class FuzzyCost(wiring.Component):
         self.num_maximum = self._defuzzifier.num_maximum
         self.den_maximum = self._defuzzifier.den_maximum
         self.latency = (
-            self._compensation.latency
-            + Membership.latency
-            + self._rules.latency
-            + self._defuzzifier.latency
+            self._compensation.latency + Membership.latency + self._rules.latency + self._defuzzifier.latency
         )
         super().__init__(_ports(config, self.num_maximum, self.den_maximum))
 

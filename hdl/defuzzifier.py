@@ -41,9 +41,7 @@ class Defuzzifier(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        conclusions = {
-            k: pipeline.input(self.i[f"y{k}"], self._maximum) for k in range(1, CONCLUSIONS + 1)
-        }
+        conclusions = {k: pipeline.input(self.i[f"y{k}"], self._maximum) for k in range(1, CONCLUSIONS + 1)}
         terms: list[Word] = [
             pipeline.shifted(y, bit)
             for k, y in conclusions.items()

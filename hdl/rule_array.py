@@ -76,9 +76,7 @@ class RuleArray(wiring.Component):
 
         for k, by_label in self._needs.items():
             fired = [
-                self._operator.fire(
-                    pipeline, membership(1, a), pipeline.at(join(pairs), self._pairs_ready)
-                )
+                self._operator.fire(pipeline, membership(1, a), pipeline.at(join(pairs), self._pairs_ready))
                 for a, pairs in sorted(by_label.items())
             ]
             strength = pipeline.at(pipeline.tree(pipeline.max, fired), self.latency)

@@ -179,7 +179,9 @@ class Config(_Frozen):
                 else:
                     node[leaf] = parsed
             except (KeyError, ValueError, IndexError, TypeError) as error:
-                raise ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(type(self).model_fields)}") from error
+                raise ConfigError(
+                    f"unknown key '{key}'", f"known keys: {', '.join(type(self).model_fields)}"
+                ) from error
         return self.from_dict(data)
 
     def to_toml(self) -> str:

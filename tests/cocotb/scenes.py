@@ -1,0 +1,105 @@
+"""Images and configurations of the regression, all from fixed seeds."""
+
+import numpy as np
+
+from softdepth.config import Config
+from softdepth.golden.pair import Image
+from softdepth.hdl.operators import OPERATORS
+from softdepth.sim.frames import Pair
+
+SEEDS = range(24)
+"""One random configuration each."""
+
+
+def textured(height: int, width: int, seed: int) -> Pair:
+    """A random pair with true matches in it, and sums of every size.
+
+    The contrast of the noise between the views differs from pixel to pixel and from scene to scene, so
+    that the criteria visit all labels instead of saturating.
+    """
+    rng = np.random.default_rng(seed)
+    contrast = int(rng.integers(8, 256))
+    left = rng.integers(0, contrast, (height, width, 3)).astype(np.uint8)
+    right = np.roll(left, -int(rng.integers(0, 5)), axis=1).astype(int)
+    right += (rng.normal(size=left.shape) * rng.uniform(0, contrast / 4, (height, width, 1))).astype(int)
+    return left, right.clip(0, 255).astype(np.uint8)
+
+
+def noise(height: int, width: int, seed: int) -> Pair:
+    """Two independent images: no candidate is clearly right, so that every detail of a cost decides."""
+    rng = np.random.default_rng(seed)
+    contrast = int(rng.integers(16, 160))
+    left, right = rng.integers(0, contrast, (2, height, width, 3)).astype(np.uint8)
+    return left, right
+
+
+def flat(height: int, width: int, value: int) -> Pair:
+    """A pair of one gray: every candidate costs the same."""
+    image: Image = np.full((height, width, 3), value, np.uint8)
+    return image, image.copy()
+
+
+def checkerboard(height: int, width: int) -> Pair:
+    """Black and white against its inverse: sums are as large as they can be, or zero."""
+    board = (np.indices((height, width)).sum(axis=0) % 2 * 255).astype(np.uint8)
+    left = np.repeat(board[:, :, None], 3, axis=2)
+    return left, 255 - left
+
+
+def frames_for(config: Config, seed: int) -> list[Pair]:
+    """Frames of every awkward size: smallest, odd, one over a power of two, equal neighbours, too low."""
+    w, h = config.min_width, config.min_height
+    power = 1 << (w + config.disparities // 2).bit_length()
+    return [
+        textured(h, w, seed),
+        textured(h + 4, power + 1, seed + 1),
+        noise(h + 4, power + 1, seed + 2),
+        flat(h + 1, w + 3, 0),
+        checkerboard(h + 2, power - 1),
+        flat(h, w + 1, 255),
+        textured(max(h - 2, 1), w + 2, seed + 3),
+        noise(h + 10, min(config.max_width, power + config.disparities), seed + 4),
+        noise(h + 3, min(config.max_width, 2 * power), seed + 5),
+    ]
+
+
+def random_config(seed: int) -> Config:
+    """A configuration drawn at random from everything that has gateware."""
+    rng = np.random.default_rng(seed)
+
+    def pick(options: list) -> object:
+        return options[int(rng.integers(len(options)))]
+
+    disparities = int(pick([2, 3, 5, 6, 8, 12, 16]))
+    fuzzy = bool(rng.random() < 0.8)
+    criteria = [
+        {
+            "window": int(pick([1, 3, 5, 7] if rng.random() < 0.8 else [9])),
+            "dx": int(rng.integers(-3, 4)) if rng.random() < 0.5 else 0,
+            "label_bits": int(rng.integers(8, 15)),
+        }
+        for _ in range(3 if fuzzy else 1)
+    ]
+    reading = pick(["off", "top", "literal"]) if fuzzy else "off"
+    if reading != "off":
+        criteria[int(rng.integers(3))] = {"window": 3, "dx": 0, "label_bits": 12}
+    return Config.from_dict(
+        {
+            "name": f"random-{seed}",
+            "disparities": disparities,
+            "lanes": pick([n for n in range(1, disparities + 1) if disparities % n == 0]),
+            "max_width": int(rng.integers(64, 200)),
+            "max_height": 100,
+            "reference": pick(["left", "right"]),
+            "cost": "fuzzy" if fuzzy else "sad",
+            "operator": pick(sorted(OPERATORS)),
+            "rules": pick(["printed", "corrected"]),
+            "membership_bits": int(rng.integers(3, 9)),
+            "criteria": criteria,
+            "compensation": {
+                "reading": reading,
+                "threshold": int(rng.integers(0, 3000)),
+                "min_disparity": int(rng.integers(0, disparities + 1)),
+            },
+        }
+    )

@@ -1,0 +1,96 @@
+"""The checkers work: gateware with one deliberate fault each is caught."""
+
+from collections.abc import Callable
+
+import pytest
+from amaranth.hdl import Module
+from amaranth.lib import fifo, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth import rules
+from softdepth.config import Config
+from softdepth.errors import ToolError
+from softdepth.hdl import core, line_buffer, rule_array
+from softdepth.hdl.verilog import to_verilog
+from softdepth.sim.stalls import Pauses, Stalls
+from tests.cocotb.conftest import Exact
+from tests.cocotb.scenes import frames_for
+
+CONFIG = Config.preset("paper").override(["disparities=8", "lanes=4"])
+STALLS = Stalls(output=Pauses("bursts", probability=0.5, burst=100, seed=5))
+
+
+def break_a_rule(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rules 222 (conclusion 6) and 113 (conclusion 9) change places."""
+    broken = {k: list(r) for k, r in rules.rule_base(CONFIG.rules).items()}
+    broken[6][broken[6].index((2, 2, 2))] = (1, 1, 3)
+    broken[9][broken[9].index((1, 1, 3))] = (2, 2, 2)
+    monkeypatch.setattr(rule_array, "rule_base", lambda name: broken)
+
+
+def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The line buffer is off by one: its columns end a line above the pixel."""
+
+    class Shifted(line_buffer.LineBuffer):
+        def elaborate(self, platform: object) -> Module:
+            m = Module()
+            m.submodules.inner = inner = line_buffer.LineBuffer(self._width, self._rows + 1, self._depth)
+            m.d.comb += [inner.en.eq(self.en), inner.x.eq(self.x), inner.pixel.eq(self.pixel)]
+            m.d.comb += [self.column[row].eq(inner.column[row]) for row in range(self._rows)]
+            return m
+
+    monkeypatch.setattr(core, "LineBuffer", Shifted)
+
+
+def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The result FIFO forgets a word whenever it is full to the last place but one and not read."""
+
+    class Leaky(wiring.Component):
+        def __init__(self, *, width: int, depth: int) -> None:
+            self._inner = fifo.SyncFIFOBuffered(width=width, depth=depth)
+            self._depth = depth
+            super().__init__(
+                {
+                    "w_en": In(1),
+                    "w_data": In(width),
+                    "r_en": In(1),
+                    "r_rdy": Out(1),
+                    "r_data": Out(width),
+                }
+            )
+
+        def elaborate(self, platform: object) -> Module:
+            m = Module()
+            m.submodules.inner = inner = self._inner
+            m.d.comb += [
+                inner.w_en.eq(self.w_en & ((inner.level < self._depth - 1) | self.r_en)),
+                inner.w_data.eq(self.w_data),
+                inner.r_en.eq(self.r_en),
+                self.r_rdy.eq(inner.r_rdy),
+                self.r_data.eq(inner.r_data),
+            ]
+            return m
+
+    monkeypatch.setattr(core, "SyncFIFOBuffered", Leaky)
+
+
+FAULTS: dict[Callable[[pytest.MonkeyPatch], None], type[Exception]] = {
+    break_a_rule: AssertionError,
+    shift_the_line_buffer: AssertionError,
+    drop_under_back_pressure: ToolError,
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
+def test_fault_is_caught(
+    fault: Callable[[pytest.MonkeyPatch], None], exact: Exact, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pairs = frames_for(CONFIG, seed=1)
+    sound = to_verilog(CONFIG)
+    with monkeypatch.context() as patched:
+        fault(patched)
+        broken = to_verilog(CONFIG)
+    assert broken != sound
+    exact(CONFIG, pairs, verilog=sound, stalls=STALLS)
+    with pytest.raises(FAULTS[fault]):
+        exact(CONFIG, pairs, verilog=broken, stalls=STALLS)

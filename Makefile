@@ -16,7 +16,7 @@ DEMO := out/motorcycle
 .PHONY: help demo test test-fast bench lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
 
 demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/motorcycle
 	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) -o $(DEMO)
@@ -52,7 +52,7 @@ lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgra
 		--generate-hashes --no-emit-index-url --no-annotate --quiet \
 		--custom-compile-command "make lock" --output-file requirements.lock $(ARGS)
 
-export: $(READY) ## the core as Verilog: out/softdepth_$(PRESET).v (make export PRESET=lite)
+export: $(READY) ## the core as Verilog in out/ (another preset: make export PRESET=lite)
 	@mkdir -p out
 	@$(BIN)/softdepth export --preset $(PRESET) -o out/softdepth_$(PRESET).v
 

@@ -112,6 +112,17 @@ def test_equals_the_fixed_model(name: str, stalls: bool) -> None:
     assert len({int(d) for frame in expected for d in np.unique(frame.disparity)}) > 2
 
 
+@pytest.mark.parametrize("min_disparity", [2, 3, 4])
+def test_compensation_begins_at_its_disparity(min_disparity: int) -> None:
+    """The scene lies at disparity 3, and the rule fires wherever it may."""
+    rule = {"reading": "top", "min_disparity": min_disparity, "threshold": 0}
+    c = config(criteria=ROW, disparities=6, lanes=2, compensation=rule)
+    pairs = [images(5, c.min_width + 7, c.min_height + 1, 3)]
+    expected = [disparity(*p, c) for p in pairs]
+    check(run(c, pairs).payloads, expected)
+    assert bool((expected[0].disparity == 3).any()) == (min_disparity > 3)
+
+
 @pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "sad, all lanes", "lite, mean, 2 lanes, 3 steps"])
 def test_one_result_every_so_many_clocks(name: str) -> None:
     """From the first result to the last that a pixel brings, over lines and frames."""

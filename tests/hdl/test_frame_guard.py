@@ -230,15 +230,15 @@ def test_a_source_without_ends_teaches_its_height(rates: tuple[float, float]) ->
 
 @pytest.mark.parametrize("rates", RATES)
 @pytest.mark.parametrize(("old", "new"), [(3, 5), (5, 3), (2, MAX_HEIGHT), (4, 1)])
-def test_the_height_changes_when_two_frames_agree(old: int, new: int, rates: tuple[float, float]) -> None:
-    heights = [old, old, new, new, new, new]
+def test_the_height_changes_when_three_frames_agree(old: int, new: int, rates: tuple[float, float]) -> None:
+    heights = [old, old, new, new, new, new, new]
     sent = [lines(n, 5, height) for n, height in enumerate(heights)]
     result = guarded(list(chain.from_iterable(source(f, eof=False) for f in sent)), rates)
     got = frames(result.payloads, CONFIG)
-    cut = [old, old, min(old, new), min(old, new), new, new]
+    cut = [old, old, *[min(old, new)] * 3, new, new]
     assert [f.lines for f in got] == [f[:height] for f, height in zip(sent, cut, strict=True)]
-    assert [f.end for f in got] == ["end", "eof", *(["eof"] if old < new else ["end"]) * 2, "eof", "eof"]
-    assert result.status == ({"missing_starts": 2} if old < new else {"early_starts": 2})
+    assert [f.end for f in got] == ["end", "eof", *(["eof"] if old < new else ["end"]) * 3, "eof", "eof"]
+    assert result.status == ({"missing_starts": 3} if old < new else {"early_starts": 3})
 
 
 def test_one_broken_frame_does_not_change_the_learnt_height() -> None:

@@ -49,6 +49,10 @@ class Compensation(wiring.Component):
         return m
 
 
+def _layout(maxima: list[int]) -> data.StructLayout:
+    return data.StructLayout({f"s{i}": range(maximum + 1) for i, maximum in enumerate(maxima)})
+
+
 def _replacement(config: Config, label_bits: int) -> int:
     """What the rule gives a criterion; 0 when the rule is off."""
     return {"off": 0, "top": 2 << label_bits, "literal": LITERAL_INPUT}[config.compensation.reading]

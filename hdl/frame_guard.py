@@ -38,7 +38,8 @@ class FrameGuard(wiring.Component):
     pass unchanged, without a cycle lost.
 
     A source that never sets ``eof`` is served too: the first frame ends when the second begins, from
-    then on the height is known. It changes when two frames in a row agree on another.
+    then on the height is known. It changes when three frames in a row agree on another, so that starts
+    of frame misplaced within one do not change it.
 
     Members
     -------
@@ -91,6 +92,7 @@ class FrameGuard(wiring.Component):
         marks_end = Signal()
         rows = Signal(range(config.max_height + 1))  # lines since the last start, dropped ones too
         previous_rows = Signal.like(rows)
+        agreed = Signal()  # the two frames before were equally high
         height = Signal.like(rows)  # 0: not known yet
         row = Signal.like(y)
         m.d.comb += row.eq(Mux(starts, 0, y))
@@ -123,7 +125,8 @@ class FrameGuard(wiring.Component):
                 m.d.sync += in_frame.eq(0)
 
         with m.If(pending_end):
-            m.d.comb += [self.o.valid.eq(1), item.end.eq(1), item.damaged.eq(1)]
+            # No pixel is offered: what the source shows meanwhile must not shine through.
+            m.d.comb += [self.o.valid.eq(1), item.eq(0), item.end.eq(1), item.damaged.eq(1)]
             with m.If(taken):
                 m.d.sync += [pending_end.eq(0), in_frame.eq(0)]
         with m.Elif(padding):
@@ -210,7 +213,7 @@ class FrameGuard(wiring.Component):
             with m.Else():
                 m.d.sync += rows.eq(counted)
             with m.If(starts & (rows != 0)):
-                m.d.sync += previous_rows.eq(rows)
-                with m.If((height == 0) | (rows == previous_rows)):
+                m.d.sync += [previous_rows.eq(rows), agreed.eq(rows == previous_rows)]
+                with m.If((height == 0) | (agreed & (rows == previous_rows))):
                     m.d.sync += height.eq(rows)
         return m

@@ -40,9 +40,9 @@ class Sad(_Frozen):
     """
 
     kind: Literal["sad"] = "sad"
-    window: int = Field(3, ge=1, le=15)
-    dx: int = Field(0, ge=-16, le=16)
-    label_bits: int = Field(12, ge=4, le=20)
+    window: int = Field(default=3, ge=1, le=15)
+    dx: int = Field(default=0, ge=-16, le=16)
+    label_bits: int = Field(default=12, ge=4, le=20)
 
     @model_validator(mode="after")
     def _odd(self) -> Self:
@@ -74,8 +74,8 @@ class Compensation(_Frozen):
     """
 
     reading: Reading = "off"
-    threshold: int = Field(1200, ge=0)
-    min_disparity: int = Field(32, ge=0)
+    threshold: int = Field(default=1200, ge=0)
+    min_disparity: int = Field(default=32, ge=0)
 
 
 class Config(_Frozen):
@@ -85,16 +85,18 @@ class Config(_Frozen):
     """
 
     name: str = "custom"
-    disparities: int = Field(64, ge=2, le=256)
-    lanes: int = Field(16, ge=1, le=256)
-    max_width: int = Field(1280, ge=8, le=8192)
-    max_height: int = Field(1080, ge=8, le=8192)
+    disparities: int = Field(default=64, ge=2, le=256)
+    lanes: int = Field(default=16, ge=1, le=256)
+    max_width: int = Field(default=1280, ge=8, le=8192)
+    max_height: int = Field(default=1080, ge=8, le=8192)
     reference: Literal["left", "right"] = "left"
     cost: Literal["fuzzy", "sad"] = "fuzzy"
     operator: Operator = "mean"
     rules: RuleBaseName = "printed"
-    membership_bits: int = Field(8, ge=2, le=12)
-    criteria: tuple[Criterion, ...] = Field((Sad(window=3), Sad(window=5), Sad(window=7)), strict=False)
+    membership_bits: int = Field(default=8, ge=2, le=12)
+    criteria: tuple[Criterion, ...] = Field(
+        default=(Sad(window=3), Sad(window=5), Sad(window=7)), strict=False
+    )
     compensation: Compensation = Compensation()
 
     @model_validator(mode="after")
@@ -109,6 +111,11 @@ class Config(_Frozen):
         if len(self.criteria) != expected:
             raise ValueError(
                 f"criteria has {len(self.criteria)} entries, but cost = '{self.cost}' takes {expected}"
+            )
+        if self.reach_rows == 0:
+            raise ValueError(
+                "all windows are 1, but the core needs a support of more than one row: use a window of 3"
+                " or more in one criterion"
             )
         for criterion in self.criteria:
             if self.cost == "fuzzy" and criterion.label_bits < self.membership_bits:
@@ -261,7 +268,9 @@ def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
     first = error.errors(include_url=False)[0]
     key = ".".join(str(part) for part in first["loc"])
     if first["type"] == "extra_forbidden":
-        return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(model.model_fields)}")
+        table = {"compensation": Compensation, "criteria": Sad}.get(str(first["loc"][0]), model)
+        known = table.model_fields if len(first["loc"]) > 1 else model.model_fields
+        return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(known)}")
     message = first["msg"].removeprefix("Value error, ")
     if key:
         return ConfigError(f"{key} = {first['input']!r} is not valid", message[0].lower() + message[1:])

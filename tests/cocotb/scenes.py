@@ -80,6 +80,7 @@ def random_config(seed: int) -> Config:
         }
         for _ in range(3 if fuzzy else 1)
     ]
+    criteria[0]["window"] = max(criteria[0]["window"], 3)  # the support has more than one row
     reading = pick(["off", "top", "literal"]) if fuzzy else "off"
     if reading != "off":
         criteria[int(rng.integers(3))] = {"window": 3, "dx": 0, "label_bits": 12}

@@ -44,7 +44,7 @@ def first_line_too_narrow(f: Payloads) -> Payloads:
 
 
 def lines_run_together(f: Payloads) -> Payloads:
-    return damage.drop_line_ends(f, 6)
+    return damage.drop_line_end(f, 6)
 
 
 def cut_at_a_line(f: Payloads) -> Payloads:

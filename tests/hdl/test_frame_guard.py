@@ -241,14 +241,16 @@ def test_the_height_changes_when_three_frames_agree(old: int, new: int, rates: t
     assert result.status == ({"missing_starts": 3} if old < new else {"early_starts": 3})
 
 
-def test_one_broken_frame_does_not_change_the_learnt_height() -> None:
-    heights = [4, 4, 2, 4, 4]
+@pytest.mark.parametrize("parts", [[2], [3], [2, 2]])
+def test_one_broken_frame_does_not_change_the_learnt_height(parts: list[int]) -> None:
+    """A frame is cut short, or a start of frame in its middle makes two of it."""
+    heights = [4, 4, *parts, 4, 4]
     sent = [lines(n, 5, height) for n, height in enumerate(heights)]
     result = guarded(list(chain.from_iterable(source(f, eof=False) for f in sent)), (1.0, 1.0))
     got = frames(result.payloads, CONFIG)
     assert [f.lines for f in got] == sent
-    assert [f.end for f in got] == ["end", "eof", "end", "eof", "eof"]
-    assert [any(f.damaged) for f in got] == [False, False, True, False, False]
+    assert [f.end for f in got] == ["end", "eof", *["end"] * len(parts), "eof", "eof"]
+    assert [any(f.damaged) for f in got] == [height < 4 for height in heights]
 
 
 @pytest.mark.parametrize("seed", range(12))

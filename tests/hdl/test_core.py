@@ -90,8 +90,8 @@ def pairs_for(c: Config) -> list[tuple[Images, Images]]:
     """Two frames of one size, one of a single support, and a wide one that has all candidates."""
     w, h = c.min_width, c.min_height
     return [
-        images(1, w + 3, h + 1, 1),
-        images(2, w + 3, h + 1, 3),
+        images(1, w + 2, h + 1, 1),
+        images(2, w + 2, h + 1, 3),
         images(3, w, h, 0),
         images(4, w + c.disparities + 1, h + 1, 2),
     ]
@@ -165,7 +165,7 @@ def test_back_pressure_reaches_the_input(name: str) -> None:
 
 
 @pytest.mark.parametrize("reset_at", [1, 33])
-@pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "paper, mean, 1 lane"])
+@pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "lite, mean, 2 lanes, 3 steps"])
 def test_reset_in_a_frame(name: str, reset_at: int) -> None:
     c = CONFIGS[name]
     broken, *sound = pairs_for(c)

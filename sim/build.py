@@ -39,7 +39,7 @@ VERILATOR_FLAGS = (
     # Amaranth's Verilog is checked by Amaranth; the style of generated text is nobody's concern.
     *("-Wno-lint", "-Wno-style"),
 )
-MAKE_FLAGS = ("OPT_FAST=-O1", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
+MAKE_FLAGS = ("OPT_FAST=-Og", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
 
 
 @dataclass(frozen=True)

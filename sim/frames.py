@@ -34,12 +34,12 @@ class FramesResult:
 
     @property
     def cycles_per_pixel(self) -> float:
-        """Sustained clocks per result: those between the first result and the last, over all but one.
+        """Sustained clocks per pixel: from the first pixel taken to the last, over the pixels between.
 
-        The filling of the core, about ``reach_rows`` lines, is latency and not in it; stalls and gaps are.
+        Stalls and gaps are in it; the results that still follow the last pixel are not.
         """
-        cycles = self.stream.cycles
-        return float(cycles[-1] - cycles[0]) / max(len(cycles) - 1, 1)
+        taken = self.stream.taken
+        return float(taken[-1] - taken[0]) / (len(taken) - 1)
 
     @property
     def latency(self) -> int:

@@ -53,25 +53,31 @@ def run_stream(
     program = build(verilog, waves=waves is not None)
     folder = Path(tempfile.mkdtemp(prefix="softdepth-sim-"))
     path = folder / "job.npz"
-    job.save(path)
-    start = time.monotonic()
-    with _reports(path.with_suffix(PROGRESS_SUFFIX), progress):
-        failure = _simulate(program.folder, folder, path, waves is not None)
-    seconds = time.monotonic() - start
-    record_path = path.with_suffix(RECORD_SUFFIX)
-    if failure is not None or not record_path.exists():
-        raise ToolError(f"the simulator stopped: {_reason(folder / 'log')}", f"see {folder / 'log'}")
-    record = Record.load(record_path)
-    if waves is not None:
-        shutil.move(folder / "dump.vcd", waves)
+    log = folder / "log"
+    try:
+        job.save(path)
+        start = time.monotonic()
+        with _reports(path.with_suffix(PROGRESS_SUFFIX), progress):
+            failed = _simulate(program.folder, folder, path, waves is not None)
+        seconds = time.monotonic() - start
+        if failed or not path.with_suffix(RECORD_SUFFIX).exists():
+            raise ToolError(f"the simulator stopped: {_reason(log)}", f"see {log}")
+        record = Record.load(path.with_suffix(RECORD_SUFFIX))
+        if waves is not None:
+            shutil.move(folder / "dump.vcd", waves)
+    except ToolError:
+        raise  # its log is left for the user to read
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
     shutil.rmtree(folder, ignore_errors=True)
     return StreamResult(
         **vars(record), seconds_build=program.seconds, seconds_sim=seconds, cached=program.cached
     )
 
 
-def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> BaseException | None:
-    """Start the program with the bench; returns what cocotb's runner made of a failure."""
+def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> bool:
+    """Start the program with the bench in it; returns whether it failed."""
     runner = get_runner("verilator")
     runner.log.disabled = True  # what it says on the terminal is in the log too
     try:
@@ -86,9 +92,9 @@ def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> BaseExcept
             waves=waves,
             extra_env={JOB_VARIABLE: str(job)},
         )
-    except (RuntimeError, SystemExit) as error:
-        return error
-    return None
+    except (RuntimeError, SystemExit):  # how cocotb's runner says so
+        return True
+    return False
 
 
 @contextmanager

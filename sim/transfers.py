@@ -63,7 +63,7 @@ def split_frames(results: NDArray[np.void]) -> list[NDArray[np.void]]:
     starts = np.concatenate(([0], ends))
     if starts[-1] != len(results):
         raise _malformed(
-            len(frames), int(starts[-1]), f"the last {len(results) - starts[-1]} results have no eof"
+            len(ends), int(starts[-1]), f"the last {len(results) - starts[-1]} results have no eof"
         )
     for start, end in zip(starts[:-1].tolist(), ends.tolist(), strict=True):
         frame = results[start:end]

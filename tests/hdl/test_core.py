@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from softdepth.config import Config
+from softdepth.errors import ConfigError
 from softdepth.golden.fixed_model import disparity
 from softdepth.golden.maps import DisparityMap
 from softdepth.hdl.core import StereoCore
@@ -200,11 +201,10 @@ def test_the_frame_after_a_damaged_one_is_exact() -> None:
     assert result.status == {"short_lines": 1}
 
 
-@pytest.mark.parametrize("dx", [0, 2, -2])
-def test_support_of_one_row(dx: int) -> None:
-    c = config(cost="sad", criteria=[sad(1, dx)], disparities=6, lanes=2)
-    pairs = [images(k, 9 + k // 2, 3) for k in range(3)]
-    check(run(c, pairs).payloads, [disparity(*p, c) for p in pairs])
+def test_a_support_of_one_row_is_refused() -> None:
+    """The sequencer learns the width from the line before the first with results."""
+    with pytest.raises(ConfigError, match="support of more than one row"):
+        config(cost="sad", criteria=[sad(1)], disparities=6, lanes=2)
 
 
 def test_frames_lower_than_the_support() -> None:

@@ -206,12 +206,6 @@ def test_results_in_raster_order(name: str, i_rate: float) -> None:
     check(c, frames_of(c), run(c, frames_of(c), i_rate=i_rate))
 
 
-@pytest.mark.parametrize("dx", [0, 2, -2])
-def test_support_of_one_row(dx: int) -> None:
-    c = config(cost="sad", criteria=[sad(1, dx)], disparities=4, lanes=2)
-    check(c, frames_of(c), run(c, frames_of(c)))
-
-
 @pytest.mark.parametrize(("credits", "rate"), [(1, 1.0), (1, 0.3), (2, 0.5), (5, 0.3)])
 @pytest.mark.parametrize("name", ["3x3, one step", "3x3, four steps", "nothing to the right"])
 def test_no_result_without_a_credit(name: str, credits: int, rate: float) -> None:

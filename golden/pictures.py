@@ -1,7 +1,7 @@
 """Pictures of disparity maps: in colour, against the truth, and side by side."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib
 import numpy as np
@@ -91,7 +91,7 @@ def side_by_side(
     panels: Sequence[tuple[str, np.ndarray]],
     *,
     maximum: float | None = None,
-    legend: bool = False,
+    legend: Mapping[str, tuple[int, int, int]] | None = None,
     dpi: int = 150,
 ) -> bytes:
     """Any number of (title, uint8 RGB picture of one height) in a row: a PNG file's bytes.
@@ -99,7 +99,7 @@ def side_by_side(
     Parameters
     ----------
     maximum : adds the colour bar of `colour`, in pixels, at the right.
-    legend : adds the legend of `error_picture` below.
+    legend : adds a legend below: names and their colours, such as `ERROR_COLOURS`.
 
     Raises
     ------
@@ -130,22 +130,22 @@ def side_by_side(
         colour_bar.ax.tick_params(labelsize=9, length=2, color=_INK, labelcolor=_INK)
         place.set_title("px", fontsize=9, color=_INK, pad=5)
     if legend:
-        _legend(figure, bottom / down)
+        _legend(figure, bottom / down, legend)
     file = io.BytesIO()
     canvas.print_png(file)
     return file.getvalue()
 
 
-def _legend(figure: Figure, height: float) -> None:
+def _legend(figure: Figure, height: float, colours: Mapping[str, tuple[int, int, int]]) -> None:
     """One row of labelled colour patches along the bottom."""
     axes = figure.add_axes((0, 0, 1, height))
     axes.set_axis_off()
-    for label, rgb in ERROR_COLOURS.items():
+    for label, rgb in colours.items():
         shade = tuple(value / 255 for value in rgb)
         axes.scatter(
             [], [], marker="s", s=90, color=[shade], edgecolors="#8c959f", linewidths=0.5, label=label
         )
-    axes.legend(loc="center", ncols=len(ERROR_COLOURS), frameon=False, fontsize=10, labelcolor=_INK)
+    axes.legend(loc="center", ncols=len(colours), frameon=False, fontsize=10, labelcolor=_INK)
 
 
 def _mask(disparity: np.ndarray, mask: np.ndarray, what: str) -> np.ndarray:

@@ -10,11 +10,11 @@ from pathlib import Path
 from softdepth.errors import InputError
 
 LAST = "report.json"
-"""Moved in last: where it lies, all the rest lies too."""
+"""A run's file that is moved in last: where it lies, all the rest lies too."""
 
 
 @contextmanager
-def result_folder(target: Path, stale: tuple[str, ...] = ()) -> Iterator[Path]:
+def result_folder(target: Path, stale: tuple[str, ...] = (), last: str = LAST) -> Iterator[Path]:
     """Give a temporary folder whose files move into `target` when the block ends well.
 
     `target` and its parents are made as needed, and are proven writable before the block starts. When the
@@ -25,6 +25,7 @@ def result_folder(target: Path, stale: tuple[str, ...] = ()) -> Iterator[Path]:
     target : where the results shall lie.
     stale : names that an earlier run may have left and that this one may not write again; they are
         removed when the new files move in.
+    last : the file that is moved in last.
 
     Raises `InputError` where `target` is no folder or cannot be written.
     """
@@ -34,7 +35,7 @@ def result_folder(target: Path, stale: tuple[str, ...] = ()) -> Iterator[Path]:
         workplace = _open(target)
         try:
             yield workplace
-            _move(workplace, target, stale)
+            _move(workplace, target, stale, last)
             done = True
         finally:
             shutil.rmtree(workplace, ignore_errors=True)
@@ -55,10 +56,10 @@ def _open(target: Path) -> Path:
         raise _unwritable(target, error) from error
 
 
-def _move(workplace: Path, target: Path, stale: tuple[str, ...]) -> None:
-    files = sorted(workplace.iterdir(), key=lambda file: (file.name == LAST, file.name))
+def _move(workplace: Path, target: Path, stale: tuple[str, ...], last: str) -> None:
+    files = sorted(workplace.iterdir(), key=lambda file: (file.name == last, file.name))
     try:
-        (target / LAST).unlink(missing_ok=True)
+        (target / last).unlink(missing_ok=True)
         for name in set(stale) - {file.name for file in files}:
             (target / name).unlink(missing_ok=True)
         for file in files:

@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from softdepth import screen
-from softdepth.commands import options
-from softdepth.config import Config
-from softdepth.errors import InputError
+from softdepth.commands import options, pairs
 
 if TYPE_CHECKING:
-    from softdepth.golden.images import StereoPair
+    from softdepth.measure import Measurement
     from softdepth.sim.compare import Mismatch
 
 EXIT_MISMATCH = 1
@@ -20,19 +18,11 @@ SHOWN_MISMATCHES = 5
 
 
 def run(
-    left: Annotated[Path | None, typer.Argument(metavar="LEFT", help="Left image, rectified.")] = None,
-    right: Annotated[Path | None, typer.Argument(metavar="RIGHT", help="Right image, rectified.")] = None,
-    dataset: Annotated[
-        str | None, typer.Option("--dataset", metavar="NAME", help="A known pair; see softdepth datasets.")
-    ] = None,
-    truth: Annotated[
-        Path | None,
-        typer.Option("--gt", metavar="FILE", help="Known disparity of the reference view: PFM or gray PNG."),
-    ] = None,
-    truth_scale: Annotated[
-        float | None,
-        typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity."),
-    ] = None,
+    left: pairs.Left = None,
+    right: pairs.Right = None,
+    dataset: pairs.Dataset = None,
+    truth: pairs.GroundTruth = None,
+    truth_scale: pairs.GroundTruthScale = None,
     preset: options.Preset = None,
     config: options.ConfigFile = None,
     assignments: options.Assignments = None,
@@ -53,7 +43,7 @@ def run(
     )
     from softdepth import measure, report, results
 
-    pair = _read(left, right, dataset, truth, truth_scale, chosen)
+    pair = pairs.read(left, right, dataset, truth, truth_scale, chosen)
     measure.check_fits(pair, chosen)
     for text in pair.notes:
         screen.note(f"note: {text}")
@@ -63,44 +53,14 @@ def run(
         report.write(folder, pair, chosen, measurement, summary)
     report.show(summary)
     print(f"results: {output}")
+    fail_on_mismatch(measurement)
+
+
+def fail_on_mismatch(measurement: "Measurement") -> None:
+    """End the command with `EXIT_MISMATCH` where gateware and fixed model differ, and show where."""
     if mismatches := measurement.mismatches():
         _show(mismatches)
         raise typer.Exit(EXIT_MISMATCH)
-
-
-def _read(
-    left: Path | None,
-    right: Path | None,
-    dataset: str | None,
-    truth: Path | None,
-    scale: float | None,
-    config: Config,
-) -> "StereoPair":
-    from dataclasses import replace
-
-    if scale is not None and truth is None:
-        raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
-    if dataset is not None:
-        if left or truth:
-            raise InputError(
-                f"--dataset {dataset} brings its own images and truth", "leave the files out, or --dataset"
-            )
-        from softdepth.golden import datasets
-
-        return datasets.load(dataset, reference=config.reference)
-    if left is None or right is None:
-        raise InputError(
-            f"a pair is two images, {1 if left else 0} given",
-            "use softdepth run LEFT RIGHT, or --dataset NAME",
-        )
-    from softdepth.golden.images import read_pair
-    from softdepth.golden.truth import read_truth
-
-    pair = read_pair(left, right)
-    if truth is None:
-        return pair
-    shape = (pair.height, pair.width)
-    return replace(pair, truth=read_truth(truth, scale=scale, shape=shape, view=config.reference))
 
 
 def _show(mismatches: "list[Mismatch]") -> None:

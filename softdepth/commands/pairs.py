@@ -1,0 +1,61 @@
+"""The options by which a command takes its stereo pair: two files, or a data set's name."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from softdepth.config import Config
+from softdepth.errors import InputError
+
+if TYPE_CHECKING:
+    from softdepth.golden.images import StereoPair
+
+Left = Annotated[Path | None, typer.Argument(metavar="LEFT", help="Left image, rectified.")]
+Right = Annotated[Path | None, typer.Argument(metavar="RIGHT", help="Right image, rectified.")]
+Dataset = Annotated[
+    str | None, typer.Option("--dataset", metavar="NAME", help="A known pair; see softdepth datasets.")
+]
+GroundTruth = Annotated[
+    Path | None,
+    typer.Option("--gt", metavar="FILE", help="Known disparity of the reference view: PFM or gray PNG."),
+]
+GroundTruthScale = Annotated[
+    float | None,
+    typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity."),
+]
+
+
+def read(
+    left: Path | None,
+    right: Path | None,
+    dataset: str | None,
+    truth: Path | None,
+    scale: float | None,
+    config: Config,
+) -> "StereoPair":
+    """The pair that these options choose; raises `InputError` where they contradict."""
+    if scale is not None and truth is None:
+        raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
+    if dataset is not None:
+        if left or truth:
+            raise InputError(
+                f"--dataset {dataset} brings its own images and truth", "leave the files out, or --dataset"
+            )
+        from softdepth.golden import datasets
+
+        return datasets.load(dataset, reference=config.reference)
+    if left is None or right is None:
+        raise InputError(
+            f"a pair is two images, {1 if left else 0} given",
+            "use softdepth run LEFT RIGHT, or --dataset NAME",
+        )
+    from softdepth.golden.images import read_pair
+    from softdepth.golden.truth import read_truth
+
+    pair = read_pair(left, right)
+    if truth is None:
+        return pair
+    shape = (pair.height, pair.width)
+    return replace(pair, truth=read_truth(truth, scale=scale, shape=shape, view=config.reference))

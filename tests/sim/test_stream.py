@@ -1,5 +1,6 @@
 """The bench moves every transfer, under any stalls, and notices what a design does wrong."""
 
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -153,6 +154,13 @@ def test_reports_progress(stand_in: DesignOf, transfers: Payloads) -> None:
     assert 0 < seen[0] < seen[-1] <= frames * PIXELS
 
 
+@pytest.fixture
+def _logs_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A failed run leaves its log; a test that fails on purpose leaves it in its own folder."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+
+
+@pytest.mark.usefixtures("_logs_elsewhere")
 def test_a_bench_that_fails_is_one_line(stand_in: DesignOf, transfers: Payloads) -> None:
     design = stand_in().replace("status", "something")
     with pytest.raises(ToolError, match=r"the simulator stopped: .*status.*see ") as caught:
@@ -160,6 +168,7 @@ def test_a_bench_that_fails_is_one_line(stand_in: DesignOf, transfers: Payloads)
     assert "status" in Path(caught.value.remedy.removeprefix("see ")).read_text()
 
 
+@pytest.mark.usefixtures("_logs_elsewhere")
 def test_a_design_that_ends_the_simulation(stand_in: DesignOf, transfers: Payloads) -> None:
     design = stand_in().replace("endmodule", "always @(posedge clk) if (i__valid) $finish; endmodule", 1)
     with pytest.raises(ToolError, match="the simulator stopped"):

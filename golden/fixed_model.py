@@ -7,8 +7,11 @@ For every pixel and candidate d, in exact integer arithmetic:
 3. Memberships, labels at 0, T and 2T with ``T = 2**label_bits``, and ``one = 2**membership_bits``:
    ``u = min(s, 2T) >> (label_bits - membership_bits)``,
    ``A1 = max(one - u, 0)``, ``A2 = one - |u - one|``, ``A3 = max(u - one, 0)``.
-4. Conclusions ``Y_k = max over the rules of conclusion k of Theta(A_a1, A_b2, A_c3)``.
+4. Conclusions ``Y_k = max over the rules of conclusion k of Theta(A_a1, Theta(A_b2, A_c3))``
+   (`fixed_operators`; soft-min II joins rules before the outer Theta).
 5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
+   Where S is not above zero, the cost is infinite: N / S = 1 / 0, which no candidate with S > 0
+   loses against.
 6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
    so far when ``N * S_best < N_best * S``.
 
@@ -16,19 +19,19 @@ Which candidates and pixels take part is `borders.validity_codes`' and `candidat
 With ``cost = "sad"`` steps 2 to 5 fall away: N is the first criterion, S is 1.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.config import LITERAL_INPUT, Config, Criterion
-from softdepth.errors import ConfigError, InputError
+from softdepth.errors import InputError
 from softdepth.golden.borders import validity_codes
 from softdepth.golden.candidates import band, bands
 from softdepth.golden.criteria import Values, compensate
-from softdepth.golden.inference import Memberships, Theta, conclusions
+from softdepth.golden.fixed_operators import conclude
+from softdepth.golden.inference import Memberships
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.pair import Image, check_pair, check_pixel
 from softdepth.golden.views import column_in_core_view, from_core_view, to_core_view
@@ -38,26 +41,10 @@ from softdepth.validity import Validity
 Integers = NDArray[np.signedinteger[Any]]
 
 
-class FixedOperator(NamedTuple):
-    """Theta in integers, and the largest strength it can give, as a multiple of `one`."""
-
-    theta: Theta
-    ceiling: int
-
-
-OPERATORS: Mapping[str, FixedOperator] = {
-    "min": FixedOperator(lambda a, b, c: np.minimum(np.minimum(a, b), c), 1),
-    # The mean's 1/3 is left out: it divides N and S alike.
-    "mean": FixedOperator(lambda a, b, c: a + b + c, 3),
-}
-"""The operators that have a fixed-point form; prod, soft_min_1 and soft_min_2 have none yet."""
-
-
 def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
     """The gateware's result for one frame: HxWx3 uint8 images of one shape in, an HxW map out.
 
-    Raises `InputError` for unusable images, or images wider than `config.max_width`, and
-    `ConfigError` for an operator without a fixed-point form.
+    Raises `InputError` for unusable images, or images wider than `config.max_width`.
     """
     _check(left, right, config)
     reference, other = to_core_view(left, right, config)
@@ -136,7 +123,7 @@ def trace(left: Image, right: Image, config: Config, x: int, y: int) -> Trace:
             inputs = compensated(config, d, criteria)
             degrees = [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
             fuzzy = config.cost == "fuzzy"
-            y_k = conclusions(degrees, OPERATORS[config.operator].theta, config.rules) if fuzzy else ()
+            y_k = conclude(config, degrees) if fuzzy else ()
             n, s = fraction(config, d, criteria)
             rows["criteria"].append([v.item() for v in criteria])
             rows["inputs"].append([v.item() for v in inputs])
@@ -150,23 +137,25 @@ def trace(left: Image, right: Image, config: Config, x: int, y: int) -> Trace:
 
 
 def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, Integers]:
-    """Steps 2 to 5: numerator N and denominator S > 0 of a candidate's cost.
+    """Steps 2 to 5: numerator N and denominator S of a candidate's cost; S > 0, or N / S = 1 / 0.
 
     Both come in a type that holds the products of any two candidates.
     """
     if config.cost == "sad":
         return criteria[0], np.ones_like(criteria[0])
-    theta, ceiling = OPERATORS[config.operator]
-    strongest = ceiling * config.one
-    n_max = strongest * sum(weight(k) for k in range(1, CONCLUSIONS + 1))
-    s_max = strongest * CONCLUSIONS
+    # No strength exceeds 3 * one (the mean's sum), nor falls below minus that.
+    n_max = 3 * config.one * sum(weight(k) for k in range(1, CONCLUSIONS + 1))
+    s_max = 3 * config.one * CONCLUSIONS
     n = np.zeros(criteria[0].shape, integer(n_max * s_max))
     s = np.zeros_like(n)
     inputs = compensated(config, d, criteria)
     degrees = [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
-    for k, y_k in conclusions(degrees, theta, config.rules):
+    for k, y_k in conclude(config, degrees):
         n += np.multiply(y_k, weight(k), dtype=n.dtype)
         s += y_k
+    worst = s <= 0
+    if worst.any():  # soft-min I alone can do that
+        n[worst], s[worst] = 1, 0
     return n, s
 
 
@@ -199,8 +188,4 @@ def _check(left: Image, right: Image, config: Config) -> None:
         raise InputError(
             f"the images are {width} pixels wide, the core is built for max_width = {config.max_width}",
             f"use max_width = {width} or more, or smaller images",
-        )
-    if config.cost == "fuzzy" and config.operator not in OPERATORS:
-        raise ConfigError(
-            f"operator '{config.operator}' has no fixed-point form", f"use one of {', '.join(OPERATORS)}"
         )

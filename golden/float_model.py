@@ -27,8 +27,8 @@ def disparity(
     config: Config,
     *,
     label: float = 5000.0,
-    delta: float = 0.05,
-    k: float = -100.0,
+    delta: float | None = None,
+    k: float | None = None,
 ) -> DisparityMap:
     """Disparity of every pixel: ``argmin over d of cost(d)`` (eq. 11), the smallest d on a tie.
 
@@ -37,7 +37,7 @@ def disparity(
     left, right : rectified pair, HxWx3 uint8, of one shape.
     config : the method. Its number formats (`label_bits`, `membership_bits`) do not apply here.
     label : T, the middle label of every criterion's memberships (eq. 9).
-    delta, k : softness of the operators `soft_min_1` (eq. 5) and `soft_min_2` (eq. 6).
+    delta, k : softness of `soft_min_1` (eq. 5) and `soft_min_2` (eq. 6); by default the configuration's.
 
     Costs that are equal in exact arithmetic may differ in their last bit here, and then no tie is
     seen. The fixed model has no such doubt.
@@ -68,8 +68,8 @@ def costs(
     y: int,
     *,
     label: float = 5000.0,
-    delta: float = 0.05,
-    k: float = -100.0,
+    delta: float | None = None,
+    k: float | None = None,
 ) -> Array:
     """The cost curve of one pixel of the reference view: `disparities` costs, inf where excluded.
 
@@ -101,12 +101,16 @@ def memberships(s: NDArray[np.generic], label: float) -> tuple[Array, Array, Arr
 
 
 def _cost_function(
-    config: Config, label: float, delta: float, k: float
+    config: Config, label: float, delta: float | None, k: float | None
 ) -> Callable[[int, list[Values]], Array]:
     """The function from a candidate and its criteria to its cost (eq. 10)."""
     if not 0 < label < np.inf:
         raise ConfigError(f"label is {label}", "use a positive number; the paper has 5000")
-    theta = operator(config.operator, delta=delta, k=k)
+    theta = operator(
+        config.operator,
+        delta=config.softness if delta is None else delta,
+        k=config.sharpness if k is None else k,
+    )
     replacement = {"top": 2 * label, "literal": LITERAL_INPUT}.get(config.compensation.reading, 0)
 
     def fuzzy(d: int, criteria: list[Values]) -> Array:
@@ -115,7 +119,8 @@ def _cost_function(
         for index, y_k in conclusions([memberships(s_i, label) for s_i in s], theta, config.rules):
             numerator += y_k * weight(index)
             denominator += y_k
-        return numerator / denominator
+        # A sum of zero or below judges nothing: the candidate loses against any other.
+        return np.divide(numerator, denominator, out=np.full(s[0].shape, np.inf), where=denominator > 0)
 
     def sad(d: int, criteria: list[Values]) -> Array:
         return criteria[0].astype(np.float64)

@@ -30,8 +30,8 @@ def mean(a: Array, b: Array, c: Array) -> Array:
 
 
 def soft_min_1(a: Array, b: Array, c: Array, *, delta: float) -> Array:
-    """Soft-min I (eq. 5), nested: I(I(a, b), c). It is slightly negative where operands are 0."""
-    return _soft_min_1(_soft_min_1(a, b, delta), c, delta)
+    """Soft-min I (eq. 5), nested: I(a, I(b, c)). It is slightly negative where operands are 0."""
+    return _soft_min_1(a, _soft_min_1(b, c, delta), delta)
 
 
 def _soft_min_1(a: Array, b: Array, delta: float) -> Array:

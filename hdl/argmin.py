@@ -1,23 +1,16 @@
 """Argmin over fractions, compared exactly (Bobyr et al. 2021, step 5, eq. 11)."""
 
-from amaranth.hdl import Module, Mux, Signal, ValueLike
+from amaranth.hdl import Module, Mux, ShapeLike, Signal, ValueLike
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 
-def candidate_layout(num_maximum: int, den_maximum: int, indices: int) -> data.StructLayout:
+def candidate_layout(num: ShapeLike, den: ShapeLike, indices: int) -> data.StructLayout:
     """A candidate: its cost ``num / den``, its index, and whether it is out of the running.
 
-    ``den_maximum = 0`` stands for costs that are plain numbers: there is no denominator then.
+    A ``den`` of no bits stands for costs that are plain numbers.
     """
-    return data.StructLayout(
-        {
-            "num": range(num_maximum + 1),
-            "den": range(den_maximum + 1),
-            "index": range(indices),
-            "excluded": 1,
-        }
-    )
+    return data.StructLayout({"num": num, "den": den, "index": range(indices), "excluded": 1})
 
 
 class FractionMin(wiring.Component):
@@ -133,8 +126,7 @@ class ArgminSequence(wiring.Component):
                 node.a.eq(held),
                 node.b.eq(current),
             ]
-            with m.If(~second):  # an odd one out at the end meets nobody
-                m.d.comb += node.a.excluded.eq(1)
+            # An odd one out at the end meets an earlier one of its own sequence again, which is no harm.
             with m.If(valid):
                 m.d.sync += [second.eq(~second & ~last), held.eq(current)]
             valid, last, current = emits, last, node.o

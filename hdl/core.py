@@ -7,6 +7,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.hdl.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.cost import fraction_layout
 from softdepth.hdl.delay import Delay
 from softdepth.hdl.frame_guard import FrameGuard
 from softdepth.hdl.lane import Lane, column_layout
@@ -45,8 +46,9 @@ class StereoCore(wiring.Component):
         self._config = config
         self._lanes = [Lane(config) for _ in range(config.lanes)]
         lane = self._lanes[0]
-        self._leaf = candidate_layout(lane.num_maximum, lane.den_maximum, config.lanes)
-        self._best = candidate_layout(lane.num_maximum, lane.den_maximum, config.disparities)
+        num, den = (fraction_layout(config)[name].shape for name in ("num", "den"))
+        self._leaf = candidate_layout(num, den, config.lanes)
+        self._best = candidate_layout(num, den, config.disparities)
         self._tree = ArgminTree(self._leaf, config.lanes)
         self._sequence = ArgminSequence(self._best, config.steps)
 
@@ -119,8 +121,8 @@ class StereoCore(wiring.Component):
                 lane.left.eq(left),
                 lane.right.eq(columns.columns[k]),
                 lane.near.eq(near[k]),
-                self._tree.i[k].num.eq(lane.num),
-                self._tree.i[k].den.eq(lane.den),
+                self._tree.i[k].num.eq(lane.o.num),
+                self._tree.i[k].den.eq(lane.o.den),
                 self._tree.i[k].index.eq(k),
                 self._tree.i[k].excluded.eq(excluded[k]),
             ]

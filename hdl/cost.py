@@ -1,6 +1,6 @@
 """What a candidate costs, given its criteria: the fuzzy inference, or the plain SAD."""
 
-from amaranth.hdl import Module, ShapeLike
+from amaranth.hdl import Module, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -16,10 +16,15 @@ def criteria_layout(config: Config) -> data.StructLayout:
     return data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(config.criteria)})
 
 
-def _ports(config: Config, num_maximum: int, den_maximum: int) -> dict[str, wiring.Member]:
-    num: ShapeLike = range(num_maximum + 1)
-    den: ShapeLike = range(den_maximum + 1)
-    return {"near": In(1), "i": In(criteria_layout(config)), "num": Out(num), "den": Out(den)}
+def fraction_layout(config: Config) -> data.StructLayout:
+    """A candidate's cost ``num / den``; a plain number has no ``den``, which then is 1."""
+    (low, high), (_, den_high) = config.cost_range
+    den = range(den_high + 1) if config.cost == "fuzzy" else unsigned(0)
+    return data.StructLayout({"num": range(low, high + 1), "den": den})
+
+
+def _ports(config: Config) -> dict[str, wiring.Member]:
+    return {"near": In(1), "i": In(criteria_layout(config)), "o": Out(fraction_layout(config))}
 
 
 class FuzzyCost(wiring.Component):
@@ -29,7 +34,7 @@ class FuzzyCost(wiring.Component):
     -------
     near : the candidate's disparity lies within the compensating rule's bound.
     i : its criteria.
-    num, den : its cost ``num / den``, ``latency`` clocks later; 0 is the best match.
+    o : its cost, ``latency`` clocks later; 0 is the best match.
     """
 
     def __init__(self, config: Config) -> None:
@@ -40,13 +45,11 @@ class FuzzyCost(wiring.Component):
             for criterion, maximum in zip(config.criteria, self._compensation.maxima, strict=True)
         ]
         self._rules = RuleArray(config)
-        self._defuzzifier = Defuzzifier(self._rules.maximum)
-        self.num_maximum = self._defuzzifier.num_maximum
-        self.den_maximum = self._defuzzifier.den_maximum
+        self._defuzzifier = Defuzzifier(config)
         self.latency = (
             self._compensation.latency + Membership.latency + self._rules.latency + self._defuzzifier.latency
         )
-        super().__init__(_ports(config, self.num_maximum, self.den_maximum))
+        super().__init__(_ports(config))
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
@@ -57,8 +60,8 @@ class FuzzyCost(wiring.Component):
             self._compensation.near.eq(self.near),
             self._compensation.i.eq(self.i),
             self._defuzzifier.i.eq(self._rules.o),
-            self.num.eq(self._defuzzifier.num),
-            self.den.eq(self._defuzzifier.den),
+            self.o.num.eq(self._defuzzifier.num),
+            self.o.den.eq(self._defuzzifier.den),
         ]
         for i, membership in enumerate(self._memberships):
             m.submodules[f"membership_{i}"] = membership
@@ -72,19 +75,17 @@ class FuzzyCost(wiring.Component):
 class SadCost(wiring.Component):
     """The first criterion itself as the cost (eq. 8): the baseline. Wires only.
 
-    Members are those of `FuzzyCost`; ``den`` has no bits.
+    Members are those of `FuzzyCost`.
     """
 
     latency = 0
-    den_maximum = 0
 
     def __init__(self, config: Config) -> None:
-        self.num_maximum = config.criteria[0].maximum
-        super().__init__(_ports(config, self.num_maximum, self.den_maximum))
+        super().__init__(_ports(config))
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.d.comb += self.num.eq(self.i.s0)
+        m.d.comb += self.o.num.eq(self.i.s0)
         return m
 
 

@@ -1,54 +1,62 @@
 """Defuzzification without a divider (Bobyr et al. 2021, step 4, eq. 10)."""
 
-from amaranth.hdl import Module
+from amaranth.hdl import Module, Mux
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.config import Config
 from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
 from softdepth.rules import CONCLUSIONS, weight
+
+SUM_LATENCY = tree_latency(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1)))
+"""Clocks of the weighted sum."""
 
 
 class Defuzzifier(wiring.Component):
     """Numerator and denominator of ``D = sum(Y_k M_k) / sum(Y_k)``; the fraction is compared as it is.
 
-    The weights are small constants, so that their products are shifts and adds. One set a clock.
-
-    Parameters
-    ----------
-    maximum : largest conclusion.
+    The weights are small constants, so that their products are shifts and adds. Where the
+    denominator is not above zero, which only strengths below zero can bring about, the cost is
+    infinite: 1 / 0. One set a clock.
 
     Members
     -------
     i : ``y1 .. y11``.
-    num, den : the fraction, `latency` clocks later.
+    num, den : the fraction, `latency` clocks later, within `Config.cost_range`.
     """
 
-    latency = tree_latency(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1)))
-
-    def __init__(self, maximum: int) -> None:
-        self._maximum = maximum
-        self.num_maximum = maximum * sum(weight(k) for k in range(1, CONCLUSIONS + 1))
-        self.den_maximum = maximum * CONCLUSIONS
-        conclusion = range(maximum + 1)
+    def __init__(self, config: Config) -> None:
+        self._strengths = config.strength_range
+        (self._num_low, self._num_high), (_, self._den_high) = config.cost_range
+        self._may_vanish = self._strengths[0] < 0
+        self.latency = SUM_LATENCY + self._may_vanish
+        conclusion = range(self._strengths[0], self._strengths[1] + 1)
         super().__init__(
             {
                 "i": In(data.StructLayout({f"y{k}": conclusion for k in range(1, CONCLUSIONS + 1)})),
-                "num": Out(range(self.num_maximum + 1)),
-                "den": Out(range(self.den_maximum + 1)),
+                "num": Out(range(self._num_low, self._num_high + 1)),
+                "den": Out(range(self._den_high + 1)),
             }
         )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        conclusions = {k: pipeline.input(self.i[f"y{k}"], self._maximum) for k in range(1, CONCLUSIONS + 1)}
+        low, high = self._strengths
+        conclusions = {
+            k: pipeline.input(self.i[f"y{k}"], high, minimum=low) for k in range(1, CONCLUSIONS + 1)
+        }
         terms: list[Word] = [
             pipeline.shifted(y, bit)
             for k, y in conclusions.items()
             for bit in range(weight(k).bit_length())
             if weight(k) >> bit & 1
         ]
-        num = pipeline.at(pipeline.sum(sorted(terms, key=lambda t: t.maximum)), self.latency)
-        den = pipeline.at(pipeline.sum(list(conclusions.values())), self.latency)
+        num = pipeline.at(pipeline.sum(sorted(terms, key=lambda t: t.maximum)), SUM_LATENCY)
+        den = pipeline.at(pipeline.sum(list(conclusions.values())), SUM_LATENCY)
+        if self._may_vanish:
+            vanishes = den.value <= 0
+            num = pipeline.register(Mux(vanishes, 1, num.value), num.minimum, num.maximum, SUM_LATENCY)
+            den = pipeline.register(Mux(vanishes, 0, den.value), 0, den.maximum, SUM_LATENCY)
         m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
         return m

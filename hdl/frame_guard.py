@@ -97,9 +97,11 @@ class FrameGuard(wiring.Component):
         row = Signal.like(y)
         m.d.comb += row.eq(Mux(starts, 0, y))
         ends_here = Signal()
+        too_high = Signal()
         m.d.comb += ends_here.eq(
             pair.eof | (row == config.max_height - 1) | (~marks_end & (height == row + 1))
         )
+        m.d.comb += too_high.eq(marks_end & (row == config.max_height - 1) & ~pair.eof)
         with m.If(self.i.valid & self.i.ready & pair.eof):
             m.d.sync += marks_end.eq(1)
 
@@ -181,7 +183,7 @@ class FrameGuard(wiring.Component):
                 item.sof.eq(starts),
                 item.eol.eq((eol & ~short) | full),
                 item.eof.eq(item.eol & ends_here),
-                item.damaged.eq((damaged & ~starts) | short | (full & ~eol)),
+                item.damaged.eq((damaged & ~starts) | short | (full & ~eol) | (too_high & item.eol)),
             ]
             with m.If(taken):
                 m.d.sync += [

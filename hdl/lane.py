@@ -5,7 +5,7 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS, Config
-from softdepth.hdl.cost import COSTS, criteria_layout
+from softdepth.hdl.cost import COSTS, criteria_layout, fraction_layout
 from softdepth.hdl.criteria.sad import SadCriteria
 
 CRITERIA = {"sad": SadCriteria}
@@ -25,7 +25,7 @@ class Lane(wiring.Component):
     valid : the columns are a step of a pixel.
     left, right : the columns to compare.
     near : input of the cost, ``criteria_latency`` clocks after the columns.
-    num, den : the candidate's cost, `latency` clocks after the columns.
+    o : the candidate's cost, `latency` clocks after the columns.
     """
 
     def __init__(self, config: Config) -> None:
@@ -37,16 +37,13 @@ class Lane(wiring.Component):
         }
         self.criteria_latency = max(block.latency for block in self._criteria.values())
         self.latency = self.criteria_latency + self._cost.latency
-        self.num_maximum = self._cost.num_maximum
-        self.den_maximum = self._cost.den_maximum
         super().__init__(
             {
                 "valid": In(1),
                 "left": In(column_layout(config)),
                 "right": In(column_layout(config)),
                 "near": In(1),
-                "num": Out(range(self.num_maximum + 1)),
-                "den": Out(range(self.den_maximum + 1)),
+                "o": Out(fraction_layout(config)),
             }
         )
 
@@ -72,7 +69,6 @@ class Lane(wiring.Component):
         m.d.comb += [
             self._cost.near.eq(self.near),
             self._cost.i.eq(values),
-            self.num.eq(self._cost.num),
-            self.den.eq(self._cost.den),
+            self.o.eq(self._cost.o),
         ]
         return m

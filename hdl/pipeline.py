@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from amaranth.hdl import Module, Mux, Shape, Signal, Value, ValueLike
+from amaranth.hdl import Array, Const, Module, Mux, Shape, Signal, Value, ValueLike
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,46 @@ class Pipeline:
         a, b = self.aligned(a, b)
         smaller = Mux(a.value < b.value, a.value, b.value)
         return self.register(smaller, min(a.minimum, b.minimum), min(a.maximum, b.maximum), a.time)
+
+    def subtract(self, a: Word, b: Word) -> Word:
+        """``a - b``."""
+        a, b = self.aligned(a, b)
+        return self.register(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
+
+    def distance(self, a: Word, b: Word) -> Word:
+        """``|a - b|``."""
+        a, b = self.aligned(a, b)
+        difference = Mux(a.value > b.value, a.value - b.value, b.value - a.value)
+        reach = max(a.maximum - b.minimum, b.maximum - a.minimum)
+        return self.register(difference, 0, reach, a.time)
+
+    def multiply(self, a: Word, b: Word) -> Word:
+        """``a * b`` of two words that are never negative."""
+        a, b = self.aligned(a, b)
+        return self.register(a.value * b.value, 0, a.maximum * b.maximum, a.time)
+
+    def rounded(self, word: Word, bits: int) -> Word:
+        """``word / 2**bits``, rounded half up."""
+        half = 1 << bits >> 1
+        return self.register(
+            (word.value + half) >> bits,
+            (word.minimum + half) >> bits,
+            (word.maximum + half) >> bits,
+            word.time,
+        )
+
+    def lookup(self, table: Sequence[int], word: Word) -> Word:
+        """``table[word]``; the last entry holds for every larger index."""
+        low, high = min(table), max(table)
+        entries = [Const(value, _shape(low, high)) for value in table]
+        beyond = word.value >= len(table) - 1
+        return self.register(Mux(beyond, entries[-1], Array(entries)[word.value]), low, high, word.time)
+
+    def within(self, word: Word, minimum: int, maximum: int) -> Word:
+        """``word``, known by other reasoning to stay within a narrower range: wires only."""
+        shape = _shape(minimum, maximum)
+        bits = word.value[: shape.width]
+        return Word(bits.as_signed() if shape.signed else bits, minimum, maximum, word.time)
 
     def shifted(self, word: Word, bits: int) -> Word:
         """``word * 2**bits``: wires only."""

@@ -6,7 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.hdl.membership import memberships_layout
-from softdepth.hdl.operators import operator
+from softdepth.hdl.operators import OPERATORS
 from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
 from softdepth.rules import CONCLUSIONS, rule_base
 
@@ -26,12 +26,12 @@ class RuleArray(wiring.Component):
     Members
     -------
     i : the memberships of criteria 1, 2 and 3.
-    o : ``y1 .. y11``, `latency` clocks later, each within 0 .. `maximum`.
+    o : ``y1 .. y11``, `latency` clocks later, each within `Config.strength_range`.
     """
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self._operator = operator(config)
+        self._operator = OPERATORS[config.operator](config)
         # What every conclusion needs: for each label of criterion 1, the pairs of the other two.
         self._needs: dict[int, dict[int, Pairs]] = {
             k: {a: frozenset((b, c) for a_, b, c in rules if a_ == a) for a in {rule[0] for rule in rules}}
@@ -41,8 +41,8 @@ class RuleArray(wiring.Component):
         self._pairs_ready = self._operator.pair_latency + tree_latency(widest)
         most = max(len(by_label) for by_label in self._needs.values())
         self.latency = self._pairs_ready + self._operator.fire_latency + tree_latency(most)
-        self.maximum = self._operator.maximum(config.one)
-        strength = range(self.maximum + 1)
+        low, high = config.strength_range
+        strength = range(low, high + 1)
         super().__init__(
             {
                 "i": In(data.ArrayLayout(memberships_layout(config), 3)),
@@ -80,7 +80,7 @@ class RuleArray(wiring.Component):
                 for a, pairs in sorted(by_label.items())
             ]
             strength = pipeline.at(pipeline.tree(pipeline.max, fired), self.latency)
-            assert (strength.minimum, strength.maximum) == (0, self.maximum)
+            assert (strength.minimum, strength.maximum) == self._config.strength_range
             m.d.comb += self.o[f"y{k}"].eq(strength.value)
         return m
 

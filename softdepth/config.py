@@ -17,11 +17,13 @@ import tomli_w
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from softdepth.errors import ConfigError
-from softdepth.rules import RuleBaseName
+from softdepth.rules import CONCLUSIONS, RuleBaseName, factorised_thetas, weight
+from softdepth.soft import soft_min_1_table
 
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
 Reading = Literal["off", "top", "literal"]
 
+MULTIPLIER_BITS = 18
 CHANNELS = 3
 CHANNEL_BITS = 8
 LITERAL_INPUT = 1000
@@ -92,6 +94,9 @@ class Config(_Frozen):
     reference: Literal["left", "right"] = "left"
     cost: Literal["fuzzy", "sad"] = "fuzzy"
     operator: Operator = "mean"
+    softness: float = Field(default=0.05, ge=0, le=1)
+    sharpness: float = Field(default=-100.0, ge=-500, le=500)
+    max_multipliers: int = Field(default=156, ge=0)
     rules: RuleBaseName = "printed"
     membership_bits: int = Field(default=8, ge=2, le=12)
     criteria: tuple[Criterion, ...] = Field(
@@ -116,6 +121,12 @@ class Config(_Frozen):
             raise ValueError(
                 "all windows are 1, but the core needs a support of more than one row: use a window of 3"
                 " or more in one criterion"
+            )
+        if self.multipliers > self.max_multipliers:
+            raise ValueError(
+                f"operator '{self.operator}' in {self.lanes} lanes takes {self.multipliers} multipliers of"
+                f" {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits, more than max_multipliers ="
+                f" {self.max_multipliers}: use fewer lanes, or raise max_multipliers to what the part has"
             )
         for criterion in self.criteria:
             if self.cost == "fuzzy" and criterion.label_bits < self.membership_bits:
@@ -201,8 +212,8 @@ class Config(_Frozen):
 
     @cached_property
     def hash(self) -> str:
-        """Twelve hex digits that name everything but `name`: equal hashes build equal cores."""
-        data = self.model_dump(mode="json", exclude={"name"})
+        """Twelve hex digits that name all that shapes the core: equal hashes build equal cores."""
+        data = self.model_dump(mode="json", exclude={"name", "max_multipliers"})
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:12]
 
     # -- derived: parallelism and ranges ---------------------------------------------------------
@@ -255,6 +266,49 @@ class Config(_Frozen):
     def one(self) -> int:
         """The membership value that stands for 1.0."""
         return 1 << self.membership_bits
+
+    @property
+    def strength_range(self) -> tuple[int, int]:
+        """Smallest and largest firing strength of a rule, in the operator's own scale.
+
+        The mean leaves out its 1/3 (it cancels in N/S); soft-min I goes below zero, as eq. 5 does.
+        """
+        match self.operator:
+            case "mean":
+                return 0, 3 * self.one
+            case "soft_min_1":
+                # Twice Theta of equal operands at both ends of the range: it is monotone.
+                table = soft_min_1_table(self.one, self.softness)
+                nested = table[0] + table[min(-table[0], len(table) - 1)]
+                return nested, self.one + nested
+            case _:
+                return 0, self.one
+
+    @property
+    def cost_range(self) -> tuple[tuple[int, int], tuple[int, int]]:
+        """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
+        if self.cost == "sad":
+            return (0, self.criteria[0].maximum), (1, 1)
+        low, high = self.strength_range
+        weights = sum(weight(k) for k in range(1, CONCLUSIONS + 1))
+        return (weights * low, weights * high), (CONCLUSIONS * low, CONCLUSIONS * high)
+
+    @property
+    def multipliers(self) -> int:
+        """Multipliers of `MULTIPLIER_BITS` that the core takes: exact comparisons, and products of PROD.
+
+        A comparison of fractions takes two products; those wider than a multiplier take several.
+        """
+        if self.cost == "sad":
+            return 0
+
+        def tiles(bits: int) -> int:
+            return -(-bits // MULTIPLIER_BITS)
+
+        comparisons = self.lanes - 1 + (self.steps - 1).bit_length()
+        num, den = ((high - low).bit_length() for low, high in self.cost_range)
+        thetas = factorised_thetas(self.rules) if self.operator == "prod" else 0
+        return 2 * comparisons * tiles(num) * tiles(den) + thetas * self.lanes
 
     @property
     def compensation_criterion(self) -> int | None:

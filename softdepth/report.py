@@ -18,6 +18,8 @@ from softdepth.measure import Engine, Measurement
 
 if TYPE_CHECKING:
     from softdepth.golden.images import StereoPair
+    from softdepth.golden.maps import DisparityMap
+    from softdepth.golden.truth import Truth
 
 SCHEMA = 1
 ENGINES: tuple[Engine, ...] = get_args(Engine)
@@ -66,13 +68,9 @@ class Report(BaseModel):
 
 def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> Report:
     """Score every measured map, and gather what was measured."""
-    from softdepth.golden.metrics import evaluate
-
     metrics: dict[Engine, Accuracy] = {engine: Accuracy() for engine in ENGINES}
-    if pair.truth is not None:
-        for engine, found in measurement.maps.items():
-            scores = evaluate(found.disparity, pair.truth, valid=found.valid)
-            metrics[engine] = Accuracy.model_validate(scores.as_dict())
+    for engine, found in measurement.maps.items():
+        metrics[engine] = accuracy(found, pair.truth)
     mismatches = measurement.mismatches()
     return Report(
         engine=measurement.engine,
@@ -90,6 +88,15 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
         config_hash=config.hash,
         tools=_tools("rtl" in measurement.maps),
     )
+
+
+def accuracy(found: "DisparityMap", truth: "Truth | None") -> Accuracy:
+    """The scores of a map; all None without a truth."""
+    from softdepth.golden.metrics import evaluate
+
+    if truth is None:
+        return Accuracy()
+    return Accuracy.model_validate(evaluate(found.disparity, truth, valid=found.valid).as_dict())
 
 
 def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measurement, report: Report) -> None:

@@ -58,6 +58,17 @@ def rule_base(name: RuleBaseName) -> RuleBase:
     return CORRECTED if name == "corrected" else PRINTED
 
 
+def factorised_thetas(name: RuleBaseName) -> int:
+    """Two-operand Thetas that the rule base takes when rules that agree in criterion 1 are joined.
+
+    One for each pair of labels of criteria 2 and 3, and one for each label of criterion 1 in each
+    conclusion.
+    """
+    rules = rule_base(name)
+    pairs = {(b, c) for members in rules.values() for _, b, c in members}
+    return len(pairs) + sum(len({a for a, _, _ in members}) for members in rules.values())
+
+
 def weight(conclusion: int) -> int:
     """Output label ``M_k``: falls linearly from 10 (``Y_1``, worst) to 0 (``Y_11``, best).
 

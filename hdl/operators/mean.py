@@ -1,5 +1,6 @@
 """MEAN (Bobyr et al. 2021, eq. 4, of three operands)."""
 
+from softdepth.config import Config
 from softdepth.hdl.pipeline import Pipeline, Word
 
 
@@ -9,9 +10,8 @@ class Mean:
     pair_latency = 1
     fire_latency = 1
 
-    def maximum(self, one: int) -> int:
-        """``3 * one``: the sum of three full memberships."""
-        return 3 * one
+    def __init__(self, config: Config) -> None:
+        """Nothing to configure."""
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``b + c``."""

@@ -1,5 +1,6 @@
 """MIN (Bobyr et al. 2021, eq. 2)."""
 
+from softdepth.config import Config
 from softdepth.hdl.pipeline import Pipeline, Word
 
 
@@ -9,9 +10,8 @@ class Minimum:
     pair_latency = 1
     fire_latency = 1
 
-    def maximum(self, one: int) -> int:
-        """``one``: all three memberships full."""
-        return one
+    def __init__(self, config: Config) -> None:
+        """Nothing to configure."""
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``min(b, c)``."""

@@ -1,0 +1,34 @@
+"""Soft-min II (Bobyr et al. 2021, eq. 6) of two operands, nested."""
+
+from softdepth.config import Config
+from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.soft import soft_min_2_table
+
+
+class SoftMin2:
+    """Theta as the minimum plus (k > 0), or the maximum minus (k < 0), a small table of ``|a - b|``.
+
+    It is not quite monotone, by one unit where the table falls. The rule array joins rules before
+    Theta all the same: for this operator, that order is the definition (as in the fixed model).
+    """
+
+    pair_latency = 3
+    fire_latency = 3
+
+    def __init__(self, config: Config) -> None:
+        self._table = soft_min_2_table(config.one, config.sharpness)
+        self._soft_maximum = config.sharpness < 0
+
+    def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
+        """``min(b, c) + h(|b - c|)`` or ``max(b, c) - h(|b - c|)``."""
+        correction = pipeline.lookup(self._table, pipeline.distance(b, c))
+        if self._soft_maximum:
+            strength = pipeline.subtract(pipeline.max(b, c), correction)
+        else:
+            strength = pipeline.add(pipeline.min(b, c), correction)
+        # A weighted mean lies between its operands.
+        return pipeline.within(strength, min(b.minimum, c.minimum), max(b.maximum, c.maximum))
+
+    def fire(self, pipeline: Pipeline, a: Word, pair: Word) -> Word:
+        """The same, of criterion 1's membership and a pair."""
+        return self.pair(pipeline, a, pair)

@@ -1,0 +1,24 @@
+"""Whole real frames in preset `paper`, every pixel."""
+
+from pathlib import Path
+
+import pytest
+from tests.cocotb.conftest import Exact
+
+from softdepth.config import Config
+from softdepth.golden.datasets import load
+
+
+@pytest.mark.slow
+def test_motorcycle(exact: Exact) -> None:
+    pair = load("motorcycle")
+    result = exact(Config.preset("paper"), [(pair.left, pair.right)])
+    assert result.cycles_per_pixel == pytest.approx(Config.preset("paper").steps, rel=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.middlebury
+def test_middlebury(exact: Exact, data_dir: Path) -> None:
+    """Teddy, Cones and Venus, one behind the other in one stream."""
+    pairs = [load(f"middlebury:{scene}") for scene in ("teddy", "cones", "venus")]
+    exact(Config.preset("paper"), [(pair.left, pair.right) for pair in pairs])

@@ -7,11 +7,13 @@ the markers, and by nobody's hand.
 import sys
 from pathlib import Path
 
+from softdepth import markers
 from softdepth.errors import InputError, SoftdepthError
 from softdepth.measure import Engine
 from softdepth.report import ENGINES, Report
 
-BEGIN, END = "<!-- figures:begin -->", "<!-- figures:end -->"
+PART = "figures"
+BEGIN, END = markers.markers(PART)
 PICTURE = Path("docs/images/motorcycle.png")
 
 _TITLES: dict[Engine, str] = {
@@ -48,11 +50,7 @@ def figures(report: Report) -> str:
 
 def renew(text: str, report: Report) -> str:
     """`text` with the figures of `report` between the markers; raises `InputError` where they are missing."""
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end:
-        raise InputError("README.md has lost its figure markers", f"put {BEGIN} and {END} around the table")
-    return f"{before}{BEGIN}\n{figures(report)}\n{END}{after}"
+    return markers.renew(text, "README.md", PART, figures(report))
 
 
 def main(results: Path, project: Path) -> None:
@@ -65,12 +63,12 @@ def main(results: Path, project: Path) -> None:
         renewed = renew(readme.read_text(), report)
         write_atomically(readme, renewed.encode())
         (project / PICTURE).parent.mkdir(parents=True, exist_ok=True)
-        _shrink(results / "overview.png", project / PICTURE)
+        shrink(results / "overview.png", project / PICTURE)
     except (OSError, ValueError) as error:
         raise InputError(f"cannot use the results in '{results}': {error}", "run make demo first") from error
 
 
-def _shrink(source: Path, target: Path) -> None:
+def shrink(source: Path, target: Path) -> None:
     """Copy a picture with 256 colours: a third of the bytes in every clone, and no visible loss."""
     from PIL import Image
 

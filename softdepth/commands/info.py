@@ -9,7 +9,7 @@ from rich.table import Table
 
 from softdepth import screen
 from softdepth.commands import options
-from softdepth.config import Config
+from softdepth.config import MULTIPLIER_BITS, Config
 from softdepth.errors import InputError
 
 
@@ -54,6 +54,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "output payload": f"{result_layout(config).size} bits",
         "latency": f"{_latency(config)} clocks after the last pixel of its window",
         "line buffers": f"{memory} bits, {config.min_height - 1} lines of {config.max_width} pixel pairs",
+        "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
     }

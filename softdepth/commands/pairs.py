@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from softdepth import measure, screen
 from softdepth.config import Config
 from softdepth.errors import InputError
 
@@ -35,7 +36,25 @@ def read(
     scale: float | None,
     config: Config,
 ) -> "StereoPair":
-    """The pair that these options choose; raises `InputError` where they contradict."""
+    """The pair that these options choose, checked against the core; its notes go to the screen.
+
+    Raises `InputError` where the options contradict, a file is unusable, or the core cannot take the pair.
+    """
+    pair = _find(left, right, dataset, truth, scale, config)
+    measure.check_fits(pair, config)
+    for text in pair.notes:
+        screen.note(f"note: {text}")
+    return pair
+
+
+def _find(
+    left: Path | None,
+    right: Path | None,
+    dataset: str | None,
+    truth: Path | None,
+    scale: float | None,
+    config: Config,
+) -> "StereoPair":
     if scale is not None and truth is None:
         raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
     if dataset is not None:

@@ -44,9 +44,6 @@ def run(
     from softdepth import measure, report, results
 
     pair = pairs.read(left, right, dataset, truth, truth_scale, chosen)
-    measure.check_fits(pair, chosen)
-    for text in pair.notes:
-        screen.note(f"note: {text}")
     with results.result_folder(output, stale=report.FILES) as folder:
         measurement = measure.measure(pair, chosen, engine)
         summary = report.summarise(pair, chosen, measurement)

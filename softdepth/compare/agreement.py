@@ -43,9 +43,7 @@ def agreement(first: "DisparityMap", second: "DisparityMap", truth: "Truth | Non
         raise InputError(f"the maps are {first.shape} and {second.shape}", "compare maps of one frame")
     common = first.valid & second.valid
     if not common.any():
-        raise InputError(
-            "no pixel has a result in both maps", "give images larger than the window support"
-        )
+        raise InputError("no pixel has a result in both maps", "give images larger than the window support")
     a, b = first.disparity.astype(np.int64), second.disparity.astype(np.int64)
     distance = np.abs(a - b)[common]
     differ, differ1, differ2 = (float(100 * np.mean(distance > limit)) for limit in (0, 1, 2))

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from softdepth.golden.maps import DisparityMap
 
 MEMBERSHIP_BITS = range(4, 13)
-LABEL_BITS = range(10, 15)
+LABEL_BITS = range(9, 15)
+TOLERANCE = 0.5
+"""Percentage points of bad pixels (off by more than 1 px) that a narrow format may cost."""
 
 
 class Label(BaseModel):
@@ -25,11 +27,14 @@ class Label(BaseModel):
     -------
     to_float : its difference from the float model with the paper's label.
     accuracy : its scores against the truth.
+    enough : the fewest membership bits with this label from which on `bad1` exceeds that of the float
+        model with the paper's label by at most `TOLERANCE`; None without truth, or where none do.
     """
 
     label_bits: int
     to_float: Agreement
     accuracy: Accuracy
+    enough: int | None = None
 
 
 class Point(BaseModel):
@@ -127,4 +132,19 @@ def sweep(pair: "StereoPair", config: Config, paper: "DisparityMap") -> Sweep:
                 )
             )
             advance(done * pixels)
+    for label in found.labels:
+        label.enough = enough(found, label.label_bits, accuracy(paper, pair.truth).bad1)
     return found
+
+
+def enough(found: Sweep, label_bits: int, bad1: float | None) -> int | None:
+    """The fewest membership bits from which on no format is `TOLERANCE` worse than `bad1`."""
+    narrowest = None
+    if bad1 is not None:
+        for bits in reversed(MEMBERSHIP_BITS):
+            if (point := found.point(bits, label_bits)) is None:
+                continue
+            if point.accuracy.bad1 is None or point.accuracy.bad1 > bad1 + TOLERANCE:
+                break
+            narrowest = bits
+    return narrowest

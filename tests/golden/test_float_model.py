@@ -57,7 +57,7 @@ def eq_10(inputs, operator, *, label=5000, delta=0.05, k=-100):
         "min": lambda a, b, c: min(a, b, c),
         "prod": lambda a, b, c: a * b * c,
         "mean": lambda a, b, c: (a + b + c) / 3,
-        "soft_min_1": lambda a, b, c: eq_5(eq_5(a, b, delta), c, delta),
+        "soft_min_1": lambda a, b, c: eq_5(a, eq_5(b, c, delta), delta),
         "soft_min_2": lambda a, b, c: eq_6((a, b, c), k),
     }[operator]
     a = [eq_9(s, label) for s in inputs]

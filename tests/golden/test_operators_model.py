@@ -30,7 +30,7 @@ def test_soft_min_1_is_min_within_its_softness():
     assert -2 * (0.05 - 0.05**2) / 2 <= difference.min() < -0.02
     assert difference.max() <= 0.05**2
     inner = (0.65 + 0.0025 - math.sqrt(0.0025 + 0.0025)) / 2
-    got = apply("soft_min_1", *(np.array([v]) for v in (0.3, 0.35, inner)))
+    got = apply("soft_min_1", *(np.array([v]) for v in (inner, 0.3, 0.35)))
     assert got == pytest.approx((2 * inner + 0.0025 - 0.05) / 2)
 
 

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.config import Config
+from softdepth.config import Config, Sad
 from softdepth.golden.criteria import evaluate
 from softdepth.golden.sad import absolute_difference, sad
 
@@ -28,7 +28,7 @@ def opencv_sad(left, right, window):
 @pytest.mark.parametrize("window", range(1, 16, 2))
 def test_sad_equals_opencv(window):
     left, right = planes(23, 31, 0), planes(23, 31, 1)
-    criterion = Config.from_dict({"cost": "sad", "criteria": [{"window": window}]}).criteria[0]
+    criterion = Sad(window=window)
     got = sad(criterion, left, right)
     assert got.dtype == np.int32
     np.testing.assert_array_equal(got, opencv_sad(left, right, window))
@@ -37,7 +37,7 @@ def test_sad_equals_opencv(window):
 @pytest.mark.parametrize("window", range(1, 16, 2))
 def test_the_largest_sum_fits(window):
     black, white = np.zeros((3, 17, 17), np.uint8), np.full((3, 17, 17), 255, np.uint8)
-    criterion = Config.from_dict({"cost": "sad", "criteria": [{"window": window}]}).criteria[0]
+    criterion = Sad(window=window)
     assert (sad(criterion, black, white) == window * window * 765).all()
     assert (sad(criterion, white, black) == criterion.maximum).all()
 

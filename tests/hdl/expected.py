@@ -1,6 +1,10 @@
 """The method in plain Python, one candidate at a time: what the blocks' tests compare with."""
 
+import math
 from collections.abc import Sequence
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from functools import cache
 
 from softdepth.config import Config
 from softdepth.rules import rule_base, weight
@@ -18,18 +22,66 @@ def memberships(value: int, label_bits: int, config: Config) -> Triple:
     return max(one - u, 0), one - abs(u - one), max(u - one, 0)
 
 
-def theta(operator: str, a: int, b: int, c: int) -> int:
-    """The fuzzy AND (eq. 2 and 4); the mean without its third."""
-    return {"min": min(a, b, c), "mean": a + b + c}[operator]
+def eq_5(a: Fraction, b: Fraction, delta: float) -> Decimal:
+    """Soft-min I as printed, to forty digits."""
+    with localcontext(prec=40):
+        x, y, d = _decimal(a), _decimal(b), Decimal(delta)
+        return (x + y + d**2 - ((x - y) ** 2 + d**2).sqrt()) / 2
+
+
+def eq_6(a: Fraction, b: Fraction, k: float) -> Decimal:
+    """Soft-min II as printed, of two operands, to forty digits."""
+    with localcontext(prec=40):
+        x, y, steepness = _decimal(a), _decimal(b), Decimal(k)
+        p, q = (-steepness * x).exp(), (-steepness * y).exp()
+        return (x * p + y * q) / (p + q)
+
+
+@cache
+def theta_2(a: int, b: int, config: Config) -> int:
+    """The fuzzy AND (eqs. 2 to 6) of two operands in units of ``1 / one``; the mean without its divisor.
+
+    What is not whole is rounded to the nearest: halves away from the hard minimum or maximum.
+    """
+    one = 2**config.membership_bits
+    x, y = Fraction(a, one), Fraction(b, one)
+    match config.operator:
+        case "min":
+            return min(a, b)
+        case "mean":
+            return a + b
+        case "prod":
+            return math.floor(x * y * one + Fraction(1, 2))
+        case "soft_min_1":
+            return math.floor(eq_5(x, y, config.softness) * one + Decimal("0.5"))
+        case "soft_min_2":
+            exact = eq_6(x, y, config.sharpness) * one
+            if config.sharpness < 0:
+                return math.ceil(exact - Decimal("0.5"))
+            return math.floor(exact + Decimal("0.5"))
+
+
+def theta(a: int, b: int, c: int, config: Config) -> int:
+    """A rule's firing strength."""
+    return theta_2(a, theta_2(b, c, config), config)
 
 
 def conclusions(degrees: Sequence[Triple], config: Config) -> dict[int, int]:
-    """``Y_k``: the maximum over all rules of conclusion k, each evaluated by itself."""
+    """``Y_k``: the maximum over all rules of conclusion k, each evaluated by itself.
+
+    For soft-min II, which is not monotone, rules that agree in criterion 1 are joined first.
+    """
     first, second, third = degrees
-    return {
-        k: max(theta(config.operator, first[a - 1], second[b - 1], third[c - 1]) for a, b, c in rules)
-        for k, rules in rule_base(config.rules).items()
-    }
+    found = {}
+    for k, rules in rule_base(config.rules).items():
+        if config.operator == "soft_min_2":
+            pairs: dict[int, int] = {}
+            for a, b, c in rules:
+                pairs[a] = max(pairs.get(a, -1), theta_2(second[b - 1], third[c - 1], config))
+            found[k] = max(theta_2(first[a - 1], pair, config) for a, pair in pairs.items())
+        else:
+            found[k] = max(theta(first[a - 1], second[b - 1], third[c - 1], config) for a, b, c in rules)
+    return found
 
 
 def compensated(values: Sequence[int], near: bool, config: Config) -> list[int]:
@@ -44,13 +96,17 @@ def compensated(values: Sequence[int], near: bool, config: Config) -> list[int]:
 
 
 def fraction(values: Sequence[int], near: bool, config: Config) -> tuple[int, int]:
-    """The cost ``N / S`` (eq. 10) of a candidate with these criteria; its denominator is 1 for plain SAD."""
+    """The cost ``N / S`` (eq. 10) of a candidate with these criteria; its denominator is 1 for plain SAD.
+
+    A sum S that is not above zero judges nothing: the cost is infinite, 1 / 0.
+    """
     if config.cost == "sad":
         return values[0], 1
     inputs = compensated(values, near, config)
     degrees = [memberships(v, c.label_bits, config) for v, c in zip(inputs, config.criteria, strict=True)]
     y = conclusions(degrees, config)
-    return sum(y[k] * weight(k) for k in y), sum(y.values())
+    total = sum(y.values())
+    return (sum(y[k] * weight(k) for k in y), total) if total > 0 else (1, 0)
 
 
 def window_sums(left: Sequence[Column], right: Sequence[Column], config: Config) -> list[list[int]]:
@@ -82,3 +138,8 @@ def code(x: int, y: int, width: int, height: int, config: Config) -> Validity:
     if not config.reach_rows <= y < height - config.reach_rows:
         return Validity.BORDER
     return Validity.FULL if x - config.reach_left >= config.disparities - 1 else Validity.PARTIAL
+
+
+def _decimal(value: Fraction) -> Decimal:
+    """A dyadic fraction, exactly."""
+    return Decimal(value.numerator) / value.denominator

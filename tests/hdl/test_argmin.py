@@ -1,4 +1,4 @@
-"""Argmin: exact fractions, ties, exclusion, and every small number of candidates."""
+"""Argmin: exact fractions of either sign, infinite ones, ties, exclusion, every small count."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -6,14 +6,16 @@ from random import Random
 from typing import Any, NamedTuple
 
 import pytest
+from amaranth.hdl import unsigned
 
 from softdepth.hdl.argmin import ArgminSequence, ArgminTree, FractionMin, candidate_layout
 
 from .support import Ports, observe, piped
 
-NUM, DEN, INDICES = 14080, 2816, 16  # as `min` at eight bits has them
-FRACTIONS = candidate_layout(NUM, DEN, INDICES)
-NUMBERS = candidate_layout(NUM, 0, INDICES)
+LOW, NUM, DEN, INDICES = -220, 14080, 2816, 16  # much as soft-min I at eight bits has them
+FRACTIONS = candidate_layout(range(LOW, NUM + 1), range(DEN + 1), INDICES)
+NUMBERS = candidate_layout(range(NUM + 1), unsigned(0), INDICES)
+INFINITE = (1, 0)
 
 
 class Candidate(NamedTuple):
@@ -23,10 +25,14 @@ class Candidate(NamedTuple):
     excluded: int
 
 
-def best(candidates: Sequence[Candidate]) -> int | None:
+def best(candidates: Sequence[Candidate], layout: Any) -> int | None:
     """Index of the smallest cost among those not excluded, the smallest index on a tie."""
     running = [c for c in candidates if not c.excluded]
-    return min(running, key=lambda c: (Fraction(c.num, c.den or 1), c.index)).index if running else None
+    if layout is NUMBERS:
+        return min(((c.num, c.index) for c in running), default=(0, None))[1]
+    # 1 / 0 is infinite.
+    costs = [(c.den == 0, Fraction(c.num, c.den or 1), c.index) for c in running]
+    return min(costs, default=(0, 0, None))[2]
 
 
 def candidates(random: Random, count: int, layout: Any) -> list[Candidate]:
@@ -41,8 +47,14 @@ def candidates(random: Random, count: int, layout: Any) -> list[Candidate]:
             k = random.randint(1, DEN // 7)
             num, den = 5 * k + random.choice((0, 0, 1)), 7 * k
         elif style == 2:
-            num, den = random.choice(((NUM, DEN), (NUM - 1, DEN), (NUM, DEN - 1), (0, 1), (0, DEN)))
-        made.append(Candidate(num, 0 if plain else den, index, random.random() < 0.25))
+            num, den = random.choice(
+                ((NUM, DEN), (NUM - 1, DEN), (NUM, DEN - 1), (0, 1), (0, DEN), (LOW, 1), (LOW, DEN), INFINITE)
+            )
+        elif style == 3 and not plain:  # about zero
+            num = random.randint(LOW, -LOW)
+        if plain:
+            num, den = max(num, 0), 0
+        made.append(Candidate(num, den, index, random.random() < 0.25))
     if plain and style == 1:
         made = [c._replace(num=7 + c.num % 2) for c in made]
     return made
@@ -54,20 +66,30 @@ def test_better_of_two(layout: Any) -> None:
     pairs = [candidates(random, 2, layout) for _ in range(300)]
     got = piped(FractionMin(layout), [{"a": a._asdict(), "b": b._asdict()} for a, b in pairs])
     for pair, o in zip(pairs, got, strict=True):
-        expected = best(pair)
+        expected = best(pair, layout)
         if expected is None:
             assert o.excluded
             continue
         assert o.index == expected, pair
         (winner,) = (c for c in pair if c.index == expected)
         assert (o.num, o.den, o.excluded) == (*winner[:2], 0)
-    assert any(best(p) is None for p in pairs)
+    assert any(best(p, layout) is None for p in pairs)
 
 
-def test_ties_go_to_the_smaller_index_on_either_side() -> None:
-    low, high = Candidate(10, 4, 3, 0), Candidate(5, 2, 9, 0)
+@pytest.mark.parametrize("costs", [((10, 4), (5, 2)), (INFINITE, INFINITE), ((0, 7), (0, 9))])
+def test_ties_go_to_the_smaller_index_on_either_side(costs: tuple[tuple[int, int], tuple[int, int]]) -> None:
+    low, high = Candidate(*costs[0], 3, 0), Candidate(*costs[1], 9, 0)
     clocks: list[Ports] = [{"a": a._asdict(), "b": b._asdict()} for a, b in ((low, high), (high, low))]
     assert [o.index for o in piped(FractionMin(FRACTIONS), clocks)] == [3, 3]
+
+
+@pytest.mark.parametrize("finite", [(NUM, 1), (LOW, DEN), (0, 1), (1, DEN)])
+def test_an_infinite_cost_loses_against_any_other(finite: tuple[int, int]) -> None:
+    """But wins against an excluded candidate."""
+    low, high, gone = Candidate(*INFINITE, 3, 0), Candidate(*finite, 9, 0), Candidate(*finite, 1, 1)
+    pairs = ((low, high), (high, low), (low, gone), (gone, low))
+    clocks: list[Ports] = [{"a": a._asdict(), "b": b._asdict()} for a, b in pairs]
+    assert [o.index for o in piped(FractionMin(FRACTIONS), clocks)] == [9, 9, 3, 3]
 
 
 @pytest.mark.parametrize("layout", [FRACTIONS, NUMBERS])
@@ -77,7 +99,7 @@ def test_tree(count: int, layout: Any) -> None:
     sets = [sorted(candidates(random, count, layout), key=lambda c: c.index) for _ in range(60)]
     got = piped(ArgminTree(layout, count), [{"i": [c._asdict() for c in s]} for s in sets])
     for s, o in zip(sets, got, strict=True):
-        expected = best(s)
+        expected = best(s, layout)
         assert (None if o.excluded else o.index) == expected, s
 
 
@@ -104,4 +126,4 @@ def test_sequence(count: int, layout: Any, rate: float) -> None:
     seen = observe(dut, [*clocks, *idle], "o")
     for end, sequence in ends:
         o = layout.from_bits(seen[end + dut.latency])
-        assert (None if o.excluded else o.index) == best(sequence), sequence
+        assert (None if o.excluded else o.index) == best(sequence, layout), sequence

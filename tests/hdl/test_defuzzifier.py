@@ -1,32 +1,51 @@
-"""Defuzzifier: both sums, with no bit lost."""
+"""Defuzzifier: both sums with no bit lost, and the infinite cost where the denominator vanishes."""
 
 from random import Random
+from typing import Any
 
 import pytest
 
 from softdepth.hdl.defuzzifier import Defuzzifier
 from softdepth.rules import CONCLUSIONS, weight
 
-from .support import config, observe, piped
+from .support import config, piped
 
 KS = range(1, CONCLUSIONS + 1)
 
+OPERATORS: list[dict[str, Any]] = [
+    {"operator": "min", "membership_bits": 2},
+    {"operator": "prod", "membership_bits": 8, "lanes": 1},
+    {"operator": "mean", "membership_bits": 8},
+    {"operator": "mean", "membership_bits": 12},
+    {"operator": "soft_min_2", "membership_bits": 8},
+    {"operator": "soft_min_1", "membership_bits": 8},  # may go below zero, and so may their sum
+    {"operator": "soft_min_1", "membership_bits": 8, "softness": 0.5},
+    {"operator": "soft_min_1", "membership_bits": 4, "softness": 0.5},
+    {"operator": "soft_min_1", "membership_bits": 8, "softness": 1.0},  # never below zero again
+]
 
-@pytest.mark.parametrize("maximum", [1, 12, 256, 768])
-def test_numerator_and_denominator(maximum: int) -> None:
-    random = Random(maximum)
-    sets = [{k: maximum if k == j else 0 for k in KS} for j in KS]
-    sets += [{k: 0 if k == j else maximum for k in KS} for j in KS]
-    sets += [dict.fromkeys(KS, 0), dict.fromkeys(KS, maximum)]
-    sets += [{k: random.randint(0, maximum) for k in KS} for _ in range(60)]
+
+@pytest.mark.parametrize("keys", OPERATORS, ids=str)
+def test_numerator_and_denominator(keys: dict[str, Any]) -> None:
+    c = config(disparities=2, **{"lanes": 1, **keys})
+    low, high = c.strength_range
+    random = Random(high)
+    sets = [{k: high if k == j else low for k in KS} for j in KS]
+    sets += [{k: low if k == j else high for k in KS} for j in KS]
+    sets += [dict.fromkeys(KS, low), dict.fromkeys(KS, high)]
+    sets += [{k: random.randint(low, high) for k in KS} for _ in range(60)]
+    sets += [{k: 1 if k == j else 0 for k in KS} for j in KS]  # the smallest sum above zero
+    if low < 0:
+        sets += [{k: random.randint(low, -low) for k in KS} for _ in range(60)]  # sums about zero
+        sets += [dict.fromkeys(KS, 0) | {1: 1, 11: -1}, dict.fromkeys(KS, 0) | {1: -1, 11: 1, 10: 1}]
+        sets += [dict.fromkeys(KS, 0)]
     clocks = [{"i": {f"y{k}": v for k, v in s.items()}} for s in sets]
-    assert piped(Defuzzifier(maximum), clocks, "num") == [
-        sum(v * weight(k) for k, v in s.items()) for s in sets
-    ]
-    assert piped(Defuzzifier(maximum), clocks, "den") == [sum(s.values()) for s in sets]
-
-
-def test_maxima_are_those_of_all_conclusions_full() -> None:
-    dut = Defuzzifier(config().one)
-    assert (dut.num_maximum, dut.den_maximum) == (55 * 256, 11 * 256)
-    observe(dut, [{}], "num")
+    num, den = (piped(Defuzzifier(c), clocks, output) for output in ("num", "den"))
+    expected = []
+    for s in sets:
+        total = sum(s.values())
+        vanishes = low < 0 and total <= 0
+        expected.append((1, 0) if vanishes else (sum(v * weight(k) for k, v in s.items()), total))
+    assert list(zip(num, den, strict=True)) == expected
+    assert expected.count((1, 0)) > 20 or low == 0
+    assert min(n for n, _ in expected) < 0 or low == 0

@@ -64,10 +64,11 @@ def test_export_where_nothing_can_be_written(softdepth, tmp_path, target, proble
     assert [file.name for file in tmp_path.iterdir()] == ["file"]
 
 
-def test_export_without_gateware(softdepth, tmp_path):
-    outcome = softdepth("export", *SMALL, "--operator", "soft_min_1", "-o", tmp_path / "core.v")
+def test_export_of_what_no_part_can_hold(softdepth, tmp_path):
+    outcome = softdepth("export", "--operator", "prod", "--lanes", "16", "-o", tmp_path / "core.v")
     assert outcome.code == 2
-    assert "soft_min_1" in outcome.error
+    assert "takes 386 multipliers" in outcome.error
+    assert "fewer lanes" in outcome.error
     assert not list(tmp_path.iterdir())
 
 

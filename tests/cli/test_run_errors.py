@@ -175,10 +175,9 @@ def test_no_compiler(softdepth, files, out, monkeypatch):
     assert "apt" in error
 
 
-def test_an_operator_without_gateware(softdepth, files, out, monkeypatch):
-    monkeypatch.undo()  # the model itself refuses
-    arguments = (*SMALL, "--operator", "prod", "-o", out)
-    assert "prod" in refused(softdepth("run", files.left, files.right, *arguments), out)
+def test_more_multipliers_than_the_part_has(softdepth, files, out):
+    arguments = (*SMALL, "--operator", "prod", "--set", "max_multipliers=97", "-o", out)
+    assert "takes 98 multipliers" in refused(softdepth("run", files.left, files.right, *arguments), out)
 
 
 def test_a_failure_on_the_way_keeps_the_earlier_result(softdepth, files, tmp_path, monkeypatch):

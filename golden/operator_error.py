@@ -73,9 +73,7 @@ def operator_error(config: Config, reference: Reference = "at once") -> Operator
             worst = float(error.max())
             inputs = (int(a), *(int(i) for i in np.unravel_index(error.argmax(), error.shape)))
     count = len(levels) ** 3
-    return OperatorError(
-        worst, inputs, float(absolute / count), float(np.sqrt(squares / count)), worst * one
-    )
+    return OperatorError(worst, inputs, float(absolute / count), float(np.sqrt(squares / count)), worst * one)
 
 
 def _levels(config: Config) -> NDArray[Any]:

@@ -29,7 +29,8 @@ ERROR_COLOURS: dict[str, tuple[int, int, int]] = {
 """The legend of `error_picture`."""
 
 _INK = "#1f2328"
-_INCHES = 3.6
+INCHES = 3.6
+"""Width of a panel in `side_by_side`, on paper."""
 
 
 def colour(disparity: np.ndarray, valid: np.ndarray, maximum: float) -> np.ndarray:
@@ -108,16 +109,16 @@ def side_by_side(
     if not panels:
         raise InputError("there is no picture to show", "give at least one panel")
     height, width = panels[0][1].shape[:2]
-    panel = _INCHES * height / width
+    panel = INCHES * height / width
     gap, top, bottom = 0.08, 0.34, 0.36 if legend else 0.08
     bar = 0.75 if maximum is not None else 0.0
-    across = len(panels) * (_INCHES + gap) + gap + bar
+    across = len(panels) * (INCHES + gap) + gap + bar
     down = panel + top + bottom
     figure = Figure(figsize=(across, down), dpi=dpi, facecolor="white")
     canvas = FigureCanvasAgg(figure)
     for number, (title, picture) in enumerate(panels):
         axes = figure.add_axes(
-            ((gap + number * (_INCHES + gap)) / across, bottom / down, _INCHES / across, panel / down)
+            ((gap + number * (INCHES + gap)) / across, bottom / down, INCHES / across, panel / down)
         )
         axes.imshow(picture, interpolation="nearest" if picture.shape[1] < 300 else "antialiased")
         axes.set_axis_off()

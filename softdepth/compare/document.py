@@ -10,7 +10,7 @@ from pathlib import Path
 from softdepth import markers
 from softdepth.compare import tables
 from softdepth.compare.comparison import LAST, Comparison
-from softdepth.compare.sweep import MEMBERSHIP_BITS
+from softdepth.compare.sweep import MEMBERSHIP_BITS, TOLERANCE
 from softdepth.config import OPERATORS, Config
 from softdepth.errors import InputError, SoftdepthError
 from softdepth.readme import shrink
@@ -29,6 +29,20 @@ def measured(many: list[Comparison]) -> str:
         " | bad > 1 px, float | hardware | paper's RMSE, float | hardware |",
         "|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
         *map(_row, many),
+    ]
+    lines += [
+        "",
+        f"**Fewest membership bits that are enough: at most {TOLERANCE} percentage points more bad pixels"
+        " (> 1 px) than the float model with T = 5000**",
+        "",
+        "| pair | preset | operator | " + " | ".join(f"T = 2^{b}" for b in many[0].sweep.label_bits) + " |",
+        "|---|---|---|" + "---:|" * len(many[0].sweep.labels),
+        *(
+            f"| {c.pair} | {' | '.join(_method(c))} | "
+            + " | ".join(str(label.enough or "-") for label in c.sweep.labels)
+            + " |"
+            for c in many
+        ),
     ]
     for (preset, operator), group in groupby(many, key=_method):
         same = list(group)
@@ -129,7 +143,8 @@ def _row(found: Comparison) -> str:
         raise InputError(f"the format of {tables.title(found)} is not in its sweep", "compare a preset")
     paper, hardware = found.metrics["float"], found.metrics["rtl" if found.engine == "rtl" else "fixed"]
     return (
-        f"| {found.pair} | {' | '.join(_method(found))} | {a.differ:.2f} % | {a.differ1:.2f} % | {a.rmse:.2f} px"
+        f"| {found.pair} | {' | '.join(_method(found))}"
+        f" | {a.differ:.2f} % | {a.differ1:.2f} % | {a.rmse:.2f} px"
         f" | {alone.to_float.rmse:.2f} px | {point.to_same_label.rmse:.2f} px"
         f" | {paper.bad1:.2f} % | {hardware.bad1:.2f} %"
         f" | {paper.paper_rmse:.2f} | {hardware.paper_rmse:.2f} |"

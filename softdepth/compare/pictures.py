@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from softdepth.compare.sweep import LABEL_BITS, MEMBERSHIP_BITS, Point, Sweep
+from softdepth.compare.sweep import Point, Sweep
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.pictures import INCHES, NO_RESULT, colour, side_by_side
 
@@ -85,6 +85,7 @@ def sweep_plot(found: Sweep, title: str, float_bad1: float | None, marked: tuple
     every[1].sharey(every[0])
     for axes, (heading, unit, value) in zip(every, panels, strict=True):
         _lines(axes, found, value, marked)
+        axes.set_xticks(found.membership_bits)
         _dress(axes, heading, unit)
     if float_bad1 is not None:
         every[-1].set_ylim(None, float_bad1 + WORSE)
@@ -107,8 +108,8 @@ def sweep_plot(found: Sweep, title: str, float_bad1: float | None, marked: tuple
 def _lines(
     axes: Axes, found: Sweep, value: Callable[[Point], float | None], marked: tuple[int, int | None]
 ) -> None:
-    shades = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.88, len(LABEL_BITS)))
-    for shade, label in zip(shades, LABEL_BITS, strict=True):
+    shades = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.88, len(found.labels)))
+    for shade, label in zip(shades, found.label_bits, strict=True):
         points = [p for p in found.points if p.label_bits == label]
         bits, values = np.array([(p.membership_bits, value(p)) for p in points], float).T
         axes.plot(
@@ -132,7 +133,6 @@ def _dress(axes: Axes, heading: str, unit: str) -> None:
     axes.set_title(heading, fontsize=10.5, color=INK, loc="left")
     axes.set_xlabel("membership bits", fontsize=9.5, color=INK)
     axes.set_ylabel(unit, fontsize=9.5, color=INK)
-    axes.set_xticks(list(MEMBERSHIP_BITS))
     axes.tick_params(labelsize=9, colors=INK, length=0)
     axes.grid(color=GRID, linewidth=0.7)
     axes.set_axisbelow(True)

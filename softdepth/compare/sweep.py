@@ -60,6 +60,16 @@ class Sweep(BaseModel):
     labels: list[Label]
     points: list[Point]
 
+    @property
+    def label_bits(self) -> list[int]:
+        """The labels that were tried."""
+        return [label.label_bits for label in self.labels]
+
+    @property
+    def membership_bits(self) -> list[int]:
+        """The widths that were tried with any label."""
+        return sorted({point.membership_bits for point in self.points})
+
     def point(self, membership_bits: int, label_bits: int) -> Point | None:
         """The point of a format, or None where it has none: a label has at least a membership's bits."""
         wanted = (membership_bits, label_bits)
@@ -141,7 +151,7 @@ def enough(found: Sweep, label_bits: int, bad1: float | None) -> int | None:
     """The fewest membership bits from which on no format is `TOLERANCE` worse than `bad1`."""
     narrowest = None
     if bad1 is not None:
-        for bits in reversed(MEMBERSHIP_BITS):
+        for bits in reversed(found.membership_bits):
             if (point := found.point(bits, label_bits)) is None:
                 continue
             if point.accuracy.bad1 is None or point.accuracy.bad1 > bad1 + TOLERANCE:

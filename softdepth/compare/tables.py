@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from softdepth.compare.sweep import LABEL_BITS, MEMBERSHIP_BITS, TOLERANCE, Point
+from softdepth.compare.sweep import TOLERANCE, Point
 
 if TYPE_CHECKING:
     from softdepth.compare.comparison import Comparison
@@ -42,7 +42,7 @@ def enough(found: "Comparison") -> list[str]:
         + (
             f"{label.enough} membership bits are enough"
             if label.enough
-            else f"no width up to {MEMBERSHIP_BITS[-1]} bits is enough"
+            else f"no width up to {found.sweep.membership_bits[-1]} bits is enough"
         )
         for label in found.sweep.labels
     ] + [f"(enough: at most {TOLERANCE} percentage points more bad pixels, > 1 px, than the float model)"]
@@ -78,17 +78,18 @@ def figures(found: "Comparison") -> dict[str, Callable[[Point], float | None]]:
 
 def table(many: "list[Comparison]", figure: Callable[[Point], float | None]) -> list[str]:
     """`figure` by membership bits and label, the mean over some comparisons, as Markdown lines."""
+    first = many[0].sweep
     rows = [
         f"| {bits} | "
         + " | ".join(
-            _mean([found.sweep.point(bits, label) for found in many], figure) for label in LABEL_BITS
+            _mean([found.sweep.point(bits, label) for found in many], figure) for label in first.label_bits
         )
         + " |"
-        for bits in MEMBERSHIP_BITS
+        for bits in first.membership_bits
     ]
     return [
-        "| membership bits | " + " | ".join(f"T = 2^{label}" for label in LABEL_BITS) + " |",
-        "|---:|" + "---:|" * len(LABEL_BITS),
+        "| membership bits | " + " | ".join(f"T = 2^{label}" for label in first.label_bits) + " |",
+        "|---:|" + "---:|" * len(first.labels),
         *rows,
     ]
 

@@ -13,7 +13,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast bench lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast bench compare lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -30,6 +30,16 @@ test-fast: $(READY) ## the tests that take seconds
 
 bench: $(READY) ## measure speed and write docs/benchmarks.md
 	@$(BIN)/softdepth bench
+
+# Middlebury's images: in the folder that SOFTDEPTH_DATA names, or downloaded.
+compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
+	@for method in "paper mean" "paper min" "lite mean"; do set -- $$method; \
+		for pair in teddy cones venus; do \
+			$(BIN)/softdepth compare --dataset middlebury:$$pair --preset $$1 --operator $$2 \
+				-o out/compare/$$pair-$$1-$$2 || exit; \
+		done; \
+	done
+	@$(BIN)/python -m softdepth.compare.document out/compare
 
 lint: $(READY) ## style, likely bugs and formatting
 	@$(BIN)/ruff check $(SOURCES)

@@ -6,7 +6,7 @@ from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cache
 
-from softdepth.config import Config
+from softdepth.config import Config, Operator
 from softdepth.rules import rule_base, weight
 from softdepth.validity import Validity
 
@@ -37,15 +37,18 @@ def eq_6(a: Fraction, b: Fraction, k: float) -> Decimal:
         return (x * p + y * q) / (p + q)
 
 
-@cache
 def theta_2(a: int, b: int, config: Config) -> int:
     """The fuzzy AND (eqs. 2 to 6) of two operands in units of ``1 / one``; the mean without its divisor.
 
-    What is not whole is rounded to the nearest: halves away from the hard minimum or maximum.
+    What is not whole is rounded to the nearest, halves up; below a soft maximum, down.
     """
-    one = 2**config.membership_bits
+    return _theta_2(config.operator, a, b, 2**config.membership_bits, config.softness, config.sharpness)
+
+
+@cache
+def _theta_2(operator: Operator, a: int, b: int, one: int, softness: float, sharpness: float) -> int:
     x, y = Fraction(a, one), Fraction(b, one)
-    match config.operator:
+    match operator:
         case "min":
             return min(a, b)
         case "mean":
@@ -53,10 +56,10 @@ def theta_2(a: int, b: int, config: Config) -> int:
         case "prod":
             return math.floor(x * y * one + Fraction(1, 2))
         case "soft_min_1":
-            return math.floor(eq_5(x, y, config.softness) * one + Decimal("0.5"))
+            return math.floor(eq_5(x, y, softness) * one + Decimal("0.5"))
         case "soft_min_2":
-            exact = eq_6(x, y, config.sharpness) * one
-            if config.sharpness < 0:
+            exact = eq_6(x, y, sharpness) * one
+            if sharpness < 0:
                 return math.ceil(exact - Decimal("0.5"))
             return math.floor(exact + Decimal("0.5"))
 

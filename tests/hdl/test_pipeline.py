@@ -1,7 +1,9 @@
 """Pipeline: ranges, widths and alignment, with the extremes of every range."""
 
 import itertools
+import math
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from random import Random
 from typing import Any
 
@@ -39,19 +41,31 @@ class Arithmetic(wiring.Component):
         return m
 
 
-def check(ranges: Sequence[Range], latency: int, build: Build, function: Callable[..., int]) -> Word:
-    """Compare an expression with a function, at all extremes and at random; gives its word."""
+def check(
+    ranges: Sequence[Range],
+    latency: int,
+    build: Build,
+    function: Callable[..., int],
+    *,
+    lowest: int | None = None,
+) -> Word:
+    """Compare an expression with a function, at all extremes and at random; gives its word.
+
+    Its range is what the function reaches, with ``lowest`` the minimum where that is a bound only.
+    """
     random = Random(1)
     corners = list(itertools.islice(itertools.product(*ranges), 64))
     inputs = [*corners, *([random.randint(*r) for r in ranges] for _ in range(100))]
     inputs.append([low for low, _ in ranges])
     inputs.append([high for _, high in ranges])
+    if len(ranges) == 2 and max(low for low, _ in ranges) <= min(high for _, high in ranges):
+        inputs.append([max(low for low, _ in ranges)] * 2)  # equal operands
     random.shuffle(inputs)
     dut = Arithmetic(ranges, latency, build)
     got = piped(dut, [{"i": {f"a{k}": v for k, v in enumerate(values)}} for values in inputs])
     assert got == [function(*values) for values in inputs]
     assert dut.word.time == latency
-    assert dut.word.minimum == min(got)
+    assert dut.word.minimum == (min(got) if lowest is None else lowest) <= min(got)
     assert dut.word.maximum == max(got)
     assert dut.word.value.shape() == Shape.cast(range(dut.word.minimum, dut.word.maximum + 1))
     return dut.word
@@ -81,6 +95,60 @@ def test_max(a: Range, b: Range) -> None:
 @pytest.mark.parametrize(("a", "b"), RANGES)
 def test_min(a: Range, b: Range) -> None:
     check([a, b], 1, lambda p, w: p.min(w[0], w[1]), min)
+
+
+@pytest.mark.parametrize(("a", "b"), RANGES)
+def test_subtract(a: Range, b: Range) -> None:
+    check([a, b], 1, lambda p, w: p.subtract(w[0], w[1]), lambda x, y: x - y)
+
+
+@pytest.mark.parametrize(("a", "b"), RANGES)
+def test_distance(a: Range, b: Range) -> None:
+    """Ranges that do not meet are never at distance 0: the word's minimum is a bound."""
+    check([a, b], 1, lambda p, w: p.distance(w[0], w[1]), lambda x, y: abs(x - y), lowest=0)
+
+
+@pytest.mark.parametrize(
+    ("a", "b"), [((0, 255), (0, 255)), ((0, 1), (0, 256)), ((0, 0), (0, 9)), ((3, 7), (0, 4))]
+)
+def test_multiply(a: Range, b: Range) -> None:
+    check([a, b], 1, lambda p, w: p.multiply(w[0], w[1]), lambda x, y: x * y)
+
+
+@pytest.mark.parametrize("bits", [0, 1, 2, 8])
+@pytest.mark.parametrize("a", [(0, 65536), (0, 3), (-1000, 999), (-128, -1)])
+def test_rounded_half_up(a: Range, bits: int) -> None:
+    check(
+        [a],
+        1,
+        lambda p, w: p.rounded(w[0], bits),
+        lambda x: math.floor(Fraction(x, 2**bits) + Fraction(1, 2)),
+    )
+
+
+def test_rounded_at_every_half() -> None:
+    dut = Arithmetic([(-12, 12)], 1, lambda p, w: p.rounded(w[0], 2))
+    got = piped(dut, [{"i": {"a0": value}} for value in (-10, -6, -5, -2, -1, 2, 1, 6, 10)])
+    assert got == [-2, -1, -1, 0, 0, 1, 0, 2, 3]
+
+
+@pytest.mark.parametrize("table", [(5,), (-1, 0), (0, -6, 3), (7, 7, -8, 0), tuple(range(-3, 6)), (0,)])
+@pytest.mark.parametrize("highest", [0, 1, 3, 4, 9, 40])
+def test_lookup_within_and_beyond_the_table(table: tuple[int, ...], highest: int) -> None:
+    """Every index of the word, which may be fewer than the table has or many more."""
+    dut = Arithmetic([(0, highest)], 1, lambda p, w: p.lookup(table, w[0]))
+    got = piped(dut, [{"i": {"a0": index}} for index in range(highest + 1)])
+    assert got == [table[index] if index < len(table) else table[-1] for index in range(highest + 1)]
+    assert (dut.word.minimum, dut.word.maximum, dut.word.time) == (min(table), max(table), 1)
+
+
+@pytest.mark.parametrize("narrow", [(0, 7), (-3, 7), (-8, -1), (-1, 0), (0, 0)])
+def test_within_takes_no_clock_and_loses_nothing(narrow: Range) -> None:
+    dut = Arithmetic([(-20, 100)], 0, lambda p, w: p.within(w[0], *narrow))
+    values = range(narrow[0], narrow[1] + 1)
+    assert piped(dut, [{"i": {"a0": value}} for value in values]) == list(values)
+    assert (dut.word.minimum, dut.word.maximum, dut.word.time) == (*narrow, 0)
+    assert dut.word.value.shape() == Shape.cast(range(narrow[0], narrow[1] + 1))
 
 
 @pytest.mark.parametrize("bits", [0, 1, 5])

@@ -40,35 +40,31 @@ def read(
 
     Raises `InputError` where the options contradict, a file is unusable, or the core cannot take the pair.
     """
-    pair = _find(left, right, dataset, truth, scale, config)
+    if scale is not None and truth is None:
+        raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
+    if dataset is None:
+        pair = _from_files(left, right, truth, scale, config)
+    elif left or truth:
+        raise InputError(
+            f"--dataset {dataset} brings its own images and truth", "leave the files out, or --dataset"
+        )
+    else:
+        from softdepth.golden import datasets
+
+        pair = datasets.load(dataset, reference=config.reference)
     measure.check_fits(pair, config)
     for text in pair.notes:
         screen.note(f"note: {text}")
     return pair
 
 
-def _find(
-    left: Path | None,
-    right: Path | None,
-    dataset: str | None,
-    truth: Path | None,
-    scale: float | None,
-    config: Config,
+def _from_files(
+    left: Path | None, right: Path | None, truth: Path | None, scale: float | None, config: Config
 ) -> "StereoPair":
-    if scale is not None and truth is None:
-        raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
-    if dataset is not None:
-        if left or truth:
-            raise InputError(
-                f"--dataset {dataset} brings its own images and truth", "leave the files out, or --dataset"
-            )
-        from softdepth.golden import datasets
-
-        return datasets.load(dataset, reference=config.reference)
     if left is None or right is None:
         raise InputError(
             f"a pair is two images, {1 if left else 0} given",
-            "use softdepth run LEFT RIGHT, or --dataset NAME",
+            "give LEFT and RIGHT, or --dataset NAME",
         )
     from softdepth.golden.images import read_pair
     from softdepth.golden.truth import read_truth

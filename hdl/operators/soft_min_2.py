@@ -8,8 +8,9 @@ from softdepth.soft import soft_min_2_table
 class SoftMin2:
     """Theta as the minimum plus (k > 0), or the maximum minus (k < 0), a small table of ``|a - b|``.
 
-    It is not quite monotone, by one unit where the table falls. The rule array joins rules before
-    Theta all the same: for this operator, that order is the definition (as in the fixed model).
+    It is not monotone: where the table falls, a step of one in an operand may lower it by one. The rule
+    array joins rules before Theta all the same: for this operator, that order is the definition (as in
+    the fixed model).
     """
 
     pair_latency = 3

@@ -1,0 +1,190 @@
+"""The operators of the fixed model: ranges, the denominator's sign, the joining order."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from softdepth.config import OPERATORS, Config
+from softdepth.golden import fixed_model, float_model, operators
+from softdepth.golden.fixed_operators import conclude, pair_operator
+from softdepth.golden.inference import conclusions, joined_conclusions
+
+SHARPNESSES = (-500.0, -100.0, -1.0, 0.0, 1.0, 30.0, 100.0, 500.0)
+SOFTNESSES = (0.0, 0.05, 0.2, 0.4, 0.5, 0.8, 1.0)
+HARD = [{"operator": name} for name in ("min", "prod", "mean")]
+SOFT_1 = [{"operator": "soft_min_1", "softness": value} for value in SOFTNESSES]
+SOFT_2 = [{"operator": "soft_min_2", "sharpness": value} for value in SHARPNESSES]
+VANISHING = {"operator": "soft_min_1", "softness": 0.4, "membership_bits": 3}
+"""At so few bits, rounding takes some denominators to zero and below."""
+
+
+def make(bits, **keys):
+    """A configuration whose criteria are steps of the memberships, for 4 bits and more."""
+    criteria = [{"window": w, "label_bits": max(bits, 4)} for w in (3, 5, 7)]
+    limits = {"disparities": 4, "lanes": 1, "max_multipliers": 1000}
+    return Config.from_dict({**limits, "criteria": criteria, "membership_bits": bits, **keys})
+
+
+def every_input(config):
+    """Criteria that give all combinations of the three inputs ``0 .. 2 * one``."""
+    shift = config.criteria[0].label_bits - config.membership_bits
+    steps = np.arange(2 * config.one + 1, dtype=np.int32) << shift
+    return [values.ravel() for values in np.meshgrid(steps, steps, steps, indexing="ij")]
+
+
+def degrees(config, criteria):
+    return [
+        fixed_model.memberships(c, values, config)
+        for c, values in zip(config.criteria, criteria, strict=True)
+    ]
+
+
+def sums(config, criteria):
+    """N and S before anything is made of their sign, from the conclusions."""
+    found = [y.astype(np.int64) for _, y in conclude(config, degrees(config, criteria))]
+    return sum(y * (10 - i) for i, y in enumerate(found)), sum(found)
+
+
+@pytest.mark.parametrize("bits", [2, 3, 5])
+@pytest.mark.parametrize("keys", [*HARD, *SOFT_1, *SOFT_2], ids=str)
+def test_strength_range_is_reached_and_never_left(keys, bits):
+    config = make(bits, **keys)
+    theta = pair_operator(config)
+    operands = [v.astype(np.int16) for v in np.meshgrid(*[np.arange(config.one + 1)] * 3, indexing="ij")]
+    strength = theta(operands[0], theta(operands[1], operands[2]))
+    assert (strength.min(), strength.max()) == config.strength_range
+
+
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+@pytest.mark.parametrize("bits", [2, 3, 4])
+@pytest.mark.parametrize("keys", [*HARD, *SOFT_1, *SOFT_2], ids=str)
+def test_cost_range_is_never_left(keys, bits, rules):
+    config = make(bits, rules=rules, **keys)
+    for values, (low, high) in zip(sums(config, every_input(config)), config.cost_range, strict=True):
+        assert low <= values.min() <= values.max() <= high
+
+
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+@pytest.mark.parametrize("bits", [2, 3, 4, 5])
+@pytest.mark.parametrize("keys", [*HARD, *SOFT_2], ids=str)
+def test_the_denominator_is_above_zero(keys, bits, rules):
+    """For all inputs there are: the gateware does not look at its sign."""
+    config = make(bits, rules=rules, **keys)
+    n, s = fixed_model.fraction(config, 0, every_input(config))
+    assert s.min() > 0
+    assert n.min() >= 0
+
+
+def test_the_denominator_of_soft_min_1_in_floating_point_is_above_zero():
+    """At every softness: that it vanishes in few bits is due to rounding."""
+    inputs = [g.ravel() for g in np.meshgrid(*[np.linspace(0, 10000, 25)] * 3, indexing="ij")]
+    triples = [float_model.memberships(s, 5000.0) for s in inputs]
+    smallest = {}
+    for softness in (0.05, 0.3, 0.35, 0.375, 0.4, 0.5, 1.0):
+        theta = operators.operator("soft_min_1", delta=softness, k=0)
+        smallest[softness] = sum(y for _, y in conclusions(triples, theta, "printed")).min()
+    assert smallest[0.05] == pytest.approx(0.369, abs=0.001)
+    assert min(smallest.values()) == smallest[0.375] == pytest.approx(0.0196, abs=0.0001)
+
+
+@pytest.mark.parametrize("softness", [0.0, 0.05])
+@pytest.mark.parametrize("bits", [2, 3, 4, 5])
+def test_the_denominator_of_soft_min_1_is_above_zero_at_the_papers_softness(bits, softness):
+    config = make(bits, operator="soft_min_1", softness=softness)
+    assert sums(config, every_input(config))[1].min() > 0
+
+
+def test_where_the_denominator_vanishes_the_cost_is_one_over_zero():
+    config = make(3, **{k: v for k, v in VANISHING.items() if k != "membership_bits"})
+    criteria = every_input(config)
+    expected_n, expected_s = sums(config, criteria)
+    vanished = expected_s <= 0
+    assert vanished.sum() == 140
+    assert (expected_s[vanished] < 0).any()
+    n, s = fixed_model.fraction(config, 0, criteria)
+    assert set(zip(n[vanished].tolist(), s[vanished].tolist(), strict=True)) == {(1, 0)}
+    np.testing.assert_array_equal(n[~vanished], expected_n[~vanished])
+    np.testing.assert_array_equal(s[~vanished], expected_s[~vanished])
+
+
+def test_an_infinite_cost_wins_only_against_its_like():
+    """In the fixed model's map, against the traces of its pixels."""
+    config = make(3, operator="soft_min_1", softness=0.4)
+    config = config.override([f"criteria.{i}.label_bits={bits}" for i, bits in enumerate((6, 8, 8))])
+    rng = np.random.default_rng(4)
+    left = rng.integers(0, 12, (9, 40, 3), dtype=np.uint8)
+    right = rng.integers(0, 12, (9, 40, 3), dtype=np.uint8)
+    result = fixed_model.disparity(left, right, config)
+    infinite = 0
+    for y, x in np.argwhere(result.valid):
+        trace = fixed_model.trace(left, right, config, x, y)
+        fractions = list(zip(trace.numerator.tolist(), trace.denominator.tolist(), strict=True))
+        costs = [n / s if s else np.inf for n, s in fractions]
+        infinite += np.isinf(costs).any()
+        assert result.disparity[y, x] == np.argmin(costs)
+    assert infinite > 10
+
+
+def test_a_vanishing_sum_is_infinite_in_floating_point(monkeypatch):
+    """No operator of the paper gets there; one that does loses against any other candidate."""
+
+    def shifted(name, *, delta, k):
+        return lambda a, b, c: np.minimum(np.minimum(a, b), c) - 0.1
+
+    monkeypatch.setattr(float_model, "operator", shifted)
+    left, right = np.zeros((2, 7, 12, 3), np.uint8)
+    right[:, 8:] = 40
+    curve = float_model.costs(left, right, make(8), 8, 3, label=900.0)
+    assert np.isinf(curve).any()
+    assert np.isfinite(curve).any()
+    result = float_model.disparity(left, right, make(8), label=900.0)
+    assert result.disparity[3, 8] == curve.argmin()
+
+
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+@pytest.mark.parametrize("keys", [*HARD, *SOFT_1], ids=str)
+def test_monotone_operators_may_be_joined_before_theta(keys, rules):
+    config = make(4, rules=rules, **keys)
+    triples = degrees(config, every_input(config))
+    joined = dict(joined_conclusions(triples, pair_operator(config), rules))
+    for k, strength in conclude(config, triples):
+        np.testing.assert_array_equal(strength, joined[k])
+
+
+@pytest.mark.parametrize("sharpness", [-10.0, 10.0])
+def test_soft_min_2_is_joined_before_theta_and_this_matters(sharpness):
+    """Its result is not that of all rules by themselves, which is why the order is laid down."""
+    config = make(5, operator="soft_min_2", sharpness=sharpness)
+    theta = pair_operator(config)
+    triples = degrees(config, every_input(config))
+    apart = dict(conclusions(triples, lambda a, b, c: theta(a, theta(b, c)), "printed"))
+    differing = 0
+    for k, strength in conclude(config, triples):
+        differing += np.count_nonzero(strength != apart[k])
+        assert (strength <= apart[k]).all()
+    assert differing > 0
+
+
+@pytest.mark.parametrize("sharpness", SHARPNESSES)
+def test_soft_min_2_is_bounded_by_its_operands(sharpness):
+    config = make(5, operator="soft_min_2", sharpness=sharpness)
+    a, b = (v.astype(np.int16) for v in np.meshgrid(*[np.arange(33)] * 2))
+    strength = pair_operator(config)(a, b)
+    assert (np.minimum(a, b) <= strength).all()
+    assert (strength <= np.maximum(a, b)).all()
+
+
+@pytest.mark.parametrize("operator", OPERATORS)
+@pytest.mark.parametrize("softness", [0.05, 0.5])
+def test_nothing_overflows_at_the_widest_memberships(operator, softness):
+    """The arrays' narrow types against Python's integers, at the extremes of the range."""
+    config = make(12, operator=operator, softness=softness)
+    theta = pair_operator(config)
+    values = [0, 1, 2047, 2048, 4095, 4096]
+    steps = np.array(values) << (config.criteria[0].label_bits - config.membership_bits)
+    low, middle, _ = fixed_model.memberships(config.criteria[0], steps.astype(np.int32), config)
+    for x, y, z in product(range(len(values)), repeat=3):
+        a, b, c = middle[x : x + 1], middle[y : y + 1], low[z : z + 1]
+        exact = theta(a.astype(np.int64), theta(b.astype(np.int64), c.astype(np.int64)))
+        assert theta(a, theta(b, c)) == exact

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from softdepth.config import Config
 from softdepth.errors import ConfigError
-from softdepth.golden.fixed_model import disparity
+from softdepth.golden.fixed_model import disparity, trace
 from softdepth.golden.maps import DisparityMap
 from softdepth.hdl.core import StereoCore
 from softdepth.validity import Validity
@@ -84,6 +84,11 @@ CONFIGS: dict[str, Config] = {
     "lite, min, all lanes": config(criteria=ROW, disparities=4, lanes=4, operator="min", **FUZZY),
     "paper, mean, 1 lane": config(criteria=NEST, disparities=6, lanes=1, **FUZZY),
     "paper, min, 3 lanes": config(criteria=NEST, disparities=6, lanes=3, operator="min", rules="corrected"),
+    "lite, prod, 2 lanes": config(criteria=ROW, disparities=6, lanes=2, operator="prod", **FUZZY),
+    "lite, soft-min I, 3 lanes": config(criteria=ROW, disparities=6, lanes=3, operator="soft_min_1", **FUZZY),
+    "lite, soft-min II, 2 lanes": config(
+        criteria=ROW, disparities=6, lanes=2, operator="soft_min_2", **FUZZY
+    ),
 }
 
 
@@ -111,6 +116,22 @@ def test_equals_the_fixed_model(name: str, stalls: bool) -> None:
     codes = {int(code) for frame in expected for code in np.unique(frame.code)}
     assert codes == {Validity.FULL, Validity.PARTIAL, Validity.BORDER}
     assert len({int(d) for frame in expected for d in np.unique(frame.disparity)}) > 2
+
+
+@pytest.mark.parametrize("lanes", [2, 4])
+def test_infinite_costs(lanes: int) -> None:
+    """Soft-min I in few bits has denominators that vanish: through lanes, tree and sequence."""
+    keys = {"operator": "soft_min_1", "softness": 0.4, "membership_bits": 3}
+    criteria = [sad(3, dx, label_bits=7) for dx in (-2, 0, 2)]
+    c = config(criteria=criteria, disparities=4, lanes=lanes, **keys)
+    rng = np.random.default_rng(9)
+    left, right = rng.integers(0, 18, (2, c.min_height + 3, c.min_width + 12, 3), dtype=np.uint8)
+    expected = disparity(left, right, c)
+    traces = [trace(left, right, c, int(x), int(y)) for y, x in np.argwhere(expected.valid)]
+    infinite = [t.denominator == 0 for t in traces]
+    assert sum(map(np.any, infinite)) > 5
+    assert any(found[0] and not found.all() for found in infinite)  # the first to be held is such a one
+    check(run(c, [(left, right)]).payloads, [expected])
 
 
 @pytest.mark.parametrize("min_disparity", [2, 3, 4])

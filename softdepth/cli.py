@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from softdepth.commands import bench, compare, export, info, listing, run
+from softdepth.commands import bench, compare, export, info, listing, paper, run
 from softdepth.errors import SoftdepthError
 
 EXIT_MISMATCH = run.EXIT_MISMATCH
@@ -32,6 +32,7 @@ app.command("info")(info.info)
 app.command("presets")(listing.presets)
 app.command("datasets")(listing.datasets)
 app.command("bench")(bench.bench)
+app.command("paper")(paper.paper)
 
 
 def _print_version(wanted: bool) -> None:

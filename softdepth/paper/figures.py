@@ -1,0 +1,86 @@
+"""The pictures of the evaluation's page, as data URIs: maps, errors and cost curves."""
+
+import base64
+import io
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from softdepth.golden import pictures
+from softdepth.golden.truth import GRAY_PER_PIXEL, Truth
+from softdepth.paper.cells import Found
+from softdepth.paper.figure4 import Point
+
+_INK, _BEFORE, _AFTER = "#1f2328", "#b3261e", "#1f6feb"
+
+
+def data_uri(png: bytes) -> str:
+    """A PNG file's bytes as a ``data:`` address."""
+    return f"data:image/png;base64,{base64.b64encode(png).decode('ascii')}"
+
+
+def depth(found: Found, maximum: float) -> str:
+    """The map in colour, far blue to near red."""
+    return _picture(pictures.colour(found.disparity, found.valid, maximum))
+
+
+def errors(found: Found, truth: Truth) -> str:
+    """Where the map is within 1 px, within 2 px, and wrong."""
+    return _picture(pictures.error_picture(found.disparity, truth, found.valid))
+
+
+def gray(found: Found, first: int) -> str:
+    """The map as the paper draws it: ``4 * (d + first)`` in a byte."""
+    drawn = np.rint(GRAY_PER_PIXEL * (found.disparity.astype(np.float64) + first)) % 256
+    levels = np.where(found.valid, drawn, 0).astype(np.uint8)
+    return _picture(np.repeat(levels[:, :, None], 3, axis=2))
+
+
+def truth_gray(truth: Truth) -> str:
+    """The truth's gray levels."""
+    return _picture(np.repeat(truth.gray.astype(np.uint8)[:, :, None], 3, axis=2))
+
+
+def curve(point: Point) -> str:
+    """Fig. 4 b and c: the cost of every candidate, before the rule and after it."""
+    figure = Figure(figsize=(9.2, 2.9), dpi=110, facecolor="white", layout="constrained")
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.subplots(1, 2, sharey=True)
+    panels = (
+        ("before the rule", point.costs_before, point.before, _BEFORE),
+        ("after the rule", point.costs_after, point.after, _AFTER),
+    )
+    for ax, (title, costs, least, colour) in zip(axes, panels, strict=True):
+        index = np.arange(1, len(costs) + 1)
+        ax.plot(index, costs, color=colour, linewidth=1.4)
+        ax.plot([least], [costs[least - 1]], "o", color=colour, markersize=6)
+        ax.annotate(
+            f"{least}",
+            (least, costs[least - 1]),
+            xytext=(0, -14),
+            textcoords="offset points",
+            ha="center",
+            color=colour,
+            fontsize=10,
+            fontweight="bold",
+        )
+        ax.set_title(title, fontsize=10, color=_INK)
+        ax.set_xlabel("candidate, counted from one", fontsize=9, color=_INK)
+        ax.set_xlim(1, len(costs))
+        ax.set_ylim(-1.3, 10.6)
+        ax.grid(alpha=0.25)
+        ax.tick_params(labelsize=8, colors=_INK)
+        ax.spines[["top", "right"]].set_visible(False)
+    axes[0].set_ylabel("cost (eq. 10)", fontsize=9, color=_INK)
+    file = io.BytesIO()
+    canvas.print_png(file)
+    return data_uri(file.getvalue())
+
+
+def _picture(rgb: np.ndarray) -> str:
+    """With a palette: the maps have at most 256 colours, and the page a third of the bytes."""
+    file = io.BytesIO()
+    Image.fromarray(rgb).quantize(256).save(file, "PNG", optimize=True)
+    return data_uri(file.getvalue())

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from tests.cocotb.conftest import Exact
 
 from softdepth.config import Config
 from softdepth.golden.datasets import load
+from tests.cocotb.conftest import Exact
 
 
 @pytest.mark.slow

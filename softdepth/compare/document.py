@@ -25,24 +25,24 @@ EXHAUSTIVE_BITS = (4, 6, 8)
 def measured(many: list[Comparison]) -> str:
     """The compared configuration on each pair, then the formats, averaged over the pairs of an operator."""
     lines = [
-        "| pair | preset | operator | differ | by > 1 px | RMSE to float | by the label | by the width"
-        " | bad > 1 px, float | hardware | paper's RMSE, float | hardware |",
-        "|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        *map(_row, many),
-    ]
-    lines += [
+        *_rows(
+            "differ | by > 1 px | by > 2 px | RMSE | by the label | by the width"
+            " | hardware nearer | float nearer"
+        ),
+        *(_line(c, _difference(c)) for c in many),
+        "",
+        "**Against the truth**",
+        "",
+        *_rows(
+            "bad > 1 px, float | hardware | bad > 2 px, float | hardware | paper's RMSE, float | hardware"
+        ),
+        *(_line(c, _scores(c)) for c in many),
         "",
         f"**Fewest membership bits that are enough: at most {TOLERANCE} percentage points more bad pixels"
         " (> 1 px) than the float model with T = 5000**",
         "",
-        "| pair | preset | operator | " + " | ".join(f"T = 2^{b}" for b in many[0].sweep.label_bits) + " |",
-        "|---|---|---|" + "---:|" * len(many[0].sweep.labels),
-        *(
-            f"| {c.pair} | {' | '.join(_method(c))} | "
-            + " | ".join(str(label.enough or "-") for label in c.sweep.labels)
-            + " |"
-            for c in many
-        ),
+        *_rows(" | ".join(f"T = 2^{bits}" for bits in many[0].sweep.label_bits)),
+        *(_line(c, [str(label.enough or "-") for label in c.sweep.labels]) for c in many),
     ]
     for (preset, operator), group in groupby(many, key=_method):
         same = list(group)
@@ -134,21 +134,36 @@ def _method(found: Comparison) -> tuple[str, str]:
     return found.config["name"], found.config["operator"]
 
 
-def _row(found: Comparison) -> str:
-    """One pair and operator, in the format of the compared configuration."""
+def _rows(columns: str) -> list[str]:
+    """The first two lines of a table with a row per comparison."""
+    return [f"| pair | preset | operator | {columns} |", "|---|---|---|" + "---:|" * (columns.count("|") + 1)]
+
+
+def _line(found: Comparison, cells: list[str]) -> str:
+    return f"| {' | '.join([found.pair, *_method(found), *cells])} |"
+
+
+def _difference(found: Comparison) -> list[str]:
+    """The compared configuration against the float model with T = 5000, and the two effects apart."""
     a, label = found.agreement, tables.common_label(found)
     point = found.sweep.point(found.config["membership_bits"], label) if label is not None else None
     alone = next((entry for entry in found.sweep.labels if entry.label_bits == label), None)
     if point is None or alone is None:
         raise InputError(f"the format of {tables.title(found)} is not in its sweep", "compare a preset")
-    paper, hardware = found.metrics["float"], found.metrics["rtl" if found.engine == "rtl" else "fixed"]
-    return (
-        f"| {found.pair} | {' | '.join(_method(found))}"
-        f" | {a.differ:.2f} % | {a.differ1:.2f} % | {a.rmse:.2f} px"
-        f" | {alone.to_float.rmse:.2f} px | {point.to_same_label.rmse:.2f} px"
-        f" | {paper.bad1:.2f} % | {hardware.bad1:.2f} %"
-        f" | {paper.paper_rmse:.2f} | {hardware.paper_rmse:.2f} |"
-    )
+    shares = [f"{share:.2f} %" for share in (a.differ, a.differ1, a.differ2)]
+    distances = [f"{rmse:.2f} px" for rmse in (a.rmse, alone.to_float.rmse, point.to_same_label.rmse)]
+    nearer = ["-" if share is None else f"{share:.1f} %" for share in (a.closer, a.farther)]
+    return [*shares, *distances, *nearer]
+
+
+def _scores(found: Comparison) -> list[str]:
+    """Float model and hardware against the truth."""
+    both = found.metrics["float"], found.metrics["rtl" if found.engine == "rtl" else "fixed"]
+    return [
+        *(f"{scores.bad1:.2f} %" for scores in both),
+        *(f"{scores.bad2:.2f} %" for scores in both),
+        *(f"{scores.paper_rmse:.2f}" for scores in both),
+    ]
 
 
 if __name__ == "__main__":

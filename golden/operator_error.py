@@ -71,7 +71,8 @@ def operator_error(config: Config, reference: Reference = "at once") -> Operator
         squares += (error**2).sum()
         if error.max() > worst:
             worst = float(error.max())
-            inputs = (int(a), *(int(i) for i in np.unravel_index(error.argmax(), error.shape)))
+            row, column = divmod(int(error.argmax()), len(levels))
+            inputs = (int(a), row, column)
     count = len(levels) ** 3
     return OperatorError(worst, inputs, float(absolute / count), float(np.sqrt(squares / count)), worst * one)
 
@@ -80,7 +81,9 @@ def _levels(config: Config) -> NDArray[Any]:
     """0 .. one, as the fixed model's memberships come: made by it, in its type."""
     criterion = config.criteria[0]
     shift = criterion.label_bits - config.membership_bits
-    low, _, _ = fixed_model.memberships(criterion, np.arange(config.one, -1, -1, np.int32) << shift, config)
+    low, _, _ = fixed_model.memberships(
+        criterion, np.arange(config.one + 1, dtype=np.int32)[::-1] << shift, config
+    )
     return low
 
 

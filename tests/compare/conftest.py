@@ -2,10 +2,18 @@
 
 import pytest
 
+from softdepth.compare.sweep import Point, Sweep
 from softdepth.config import Config
 from softdepth.golden.images import StereoPair
 from softdepth.golden.synthetic import generate
 from tests.cli.conftest import files, softdepth  # noqa: F401
+
+
+def point(found: Sweep, membership_bits: int, label_bits: int) -> Point:
+    """A point that must be there."""
+    wanted = found.point(membership_bits, label_bits)
+    assert wanted is not None
+    return wanted
 
 
 @pytest.fixture

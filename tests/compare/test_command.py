@@ -14,6 +14,7 @@ from softdepth.golden import fixed_model, float_model
 from softdepth.golden.images import read_pair
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.truth import read_truth
+from tests.compare.conftest import point
 
 SMALL = ("--disparities", 16, "--lanes", 4)
 
@@ -38,8 +39,8 @@ def test_figures_are_those_of_the_models(softdepth, files, config, tmp_path, ref
     config = config.override([f"reference={reference}"])
     fixed, paper = (model.disparity(pair.left, pair.right, config) for model in (fixed_model, float_model))
     assert found.agreement == agreement(fixed, paper, truth)
-    assert found.sweep.point(8, 12).to_float == found.agreement
-    assert found.sweep.point(8, 12).accuracy == found.metrics["fixed"]
+    assert point(found.sweep, 8, 12).to_float == found.agreement
+    assert point(found.sweep, 8, 12).accuracy == found.metrics["fixed"]
     assert found.metrics["float"].paper_rmse is not None
     assert found.config_hash == config.hash
     assert Config.load(out / "config.toml") == config

@@ -13,6 +13,7 @@ from softdepth.errors import InputError
 from softdepth.golden import datasets, fixed_model, float_model
 from softdepth.markers import markers, renew
 from softdepth.report import Report
+from tests.compare.conftest import point
 from tests.project.test_documents import table_keys
 
 
@@ -48,7 +49,7 @@ def test_parts_are_renewed_from_comparisons(softdepth, home, monkeypatch):
         distances = (
             c.agreement.rmse,
             c.sweep.labels[0].to_float.rmse,
-            c.sweep.point(8, 12).to_same_label.rmse,
+            point(c.sweep, 8, 12).to_same_label.rmse,
         )
         assert f"{name}{c.agreement.differ:.2f} % |" in text
         assert " | ".join(f"{rmse:.2f} px" for rmse in distances) in text
@@ -56,7 +57,7 @@ def test_parts_are_renewed_from_comparisons(softdepth, home, monkeypatch):
         assert f"{name}{c.sweep.labels[0].enough or '-'} |" in text
     order = [line.split(" | ")[:3] for line in text.splitlines() if line.startswith("| synthetic")][:4]
     assert order == [["| " + c.pair, "paper", c.config["operator"]] for c in found]
-    mean = sum(c.sweep.point(6, 12).accuracy.bad1 for c in found[:2]) / 2
+    mean = sum(point(c.sweep, 6, 12).accuracy.bad1 or 0 for c in found[:2]) / 2
     assert f"| 6 | {mean:.2f} |" in text.split("**paper, MEAN, mean of 2 pairs: Bad")[1].split("**")[1]
     assert "| `soft_min_2`, k = 100, against nested |" in (home / "docs/operators.md").read_text()
     assert (home / document.PICTURE).stat().st_size > 0

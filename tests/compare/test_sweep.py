@@ -9,6 +9,7 @@ from softdepth.config import OPERATORS, Config
 from softdepth.errors import ConfigError
 from softdepth.golden import fixed_model, float_model
 from softdepth.report import Accuracy, accuracy
+from tests.compare.conftest import point
 
 
 @pytest.fixture
@@ -45,15 +46,15 @@ def test_points_are_what_the_models_give(config, pair, operator):
         (5, 10),
         (6, 10),
     ]
-    for point in found.points:
-        labels = [f"criteria.{i}.label_bits={point.label_bits}" for i in range(3)]
-        choice = config.override([f"membership_bits={point.membership_bits}", *labels])
+    for each in found.points:
+        labels = [f"criteria.{i}.label_bits={each.label_bits}" for i in range(3)]
+        choice = config.override([f"membership_bits={each.membership_bits}", *labels])
         fixed = fixed_model.disparity(pair.left, pair.right, choice)
-        same = float_model.disparity(pair.left, pair.right, config, label=2**point.label_bits)
-        assert point.to_float == agreement(fixed, paper, pair.truth)
-        assert point.to_same_label == agreement(fixed, same, pair.truth)
-        assert point.accuracy == accuracy(fixed, pair.truth)
-        label = next(entry for entry in found.labels if entry.label_bits == point.label_bits)
+        same = float_model.disparity(pair.left, pair.right, config, label=2**each.label_bits)
+        assert each.to_float == agreement(fixed, paper, pair.truth)
+        assert each.to_same_label == agreement(fixed, same, pair.truth)
+        assert each.accuracy == accuracy(fixed, pair.truth)
+        label = next(entry for entry in found.labels if entry.label_bits == each.label_bits)
         assert label.to_float == agreement(same, paper, pair.truth)
         assert label.accuracy == accuracy(same, pair.truth)
 
@@ -63,11 +64,8 @@ def test_nothing_is_lost_where_no_bit_is_dropped(config, pair, operator):
     config = config.override([f"operator={operator}"])
     found = sweep(pair, config, float_model.disparity(pair.left, pair.right, config))
     for bits in (10, 11, 12):
-        exact, coarse = found.point(bits, bits), found.point(4, bits)
-        assert exact is not None
-        assert coarse is not None
-        assert exact.to_same_label.differ == 0
-        assert coarse.to_same_label.differ > 0
+        assert point(found, bits, bits).to_same_label.differ == 0
+        assert point(found, 4, bits).to_same_label.differ > 0
 
 
 @pytest.mark.usefixtures("small")

@@ -1,5 +1,7 @@
 """Images and configurations of the regression, all from fixed seeds."""
 
+from typing import Any
+
 import numpy as np
 
 from softdepth.config import Config
@@ -67,7 +69,7 @@ def random_config(seed: int) -> Config:
     """A configuration drawn at random from everything that has gateware."""
     rng = np.random.default_rng(seed)
 
-    def pick(options: list) -> object:
+    def pick(options: list) -> Any:
         return options[int(rng.integers(len(options)))]
 
     disparities = int(pick([2, 3, 5, 6, 8, 12, 16]))

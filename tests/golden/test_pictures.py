@@ -96,7 +96,7 @@ def test_legend_and_bar_take_room() -> None:
     panels = [("a", np.zeros((50, 80, 3), np.uint8)), ("b", np.zeros((50, 80, 3), np.uint8))]
     plain, bar, legend = (
         decode(side_by_side(panels, **o)) for o in ({}, {"maximum": 64}, {"legend": ERROR_COLOURS})
-    )  # pyright: ignore
+    )
     assert bar.shape[1] > plain.shape[1]
     assert legend.shape[0] > plain.shape[0]
     for name in ("1 to 2 px", "over 2 px"):

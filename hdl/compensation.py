@@ -8,7 +8,7 @@ from softdepth.config import LITERAL_INPUT, Config
 
 
 class Compensation(wiring.Component):
-    """Replaces all criteria of a near candidate whose centred 3x3 SAD is too large.
+    """Replaces all criteria of a near candidate whose SAD is too large.
 
     Near candidates are those of ``d >= min_disparity``. They get the top label 2T, or 1000 in the
     literal reading. One candidate a clock, one clock of latency, also when the rule is off.

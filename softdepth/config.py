@@ -70,14 +70,16 @@ Criterion = Sad
 class Compensation(_Frozen):
     """The compensating rule against false near objects (paper, section 4, step 3).
 
-    Candidates with ``d >= min_disparity`` whose 3x3 SAD exceeds ``threshold`` have all criteria
-    replaced: by the top label 2T (``top``, which reproduces the paper's Fig. 4) or by 1000
-    (``literal``).
+    Candidates with ``d >= min_disparity`` whose SAD exceeds ``threshold`` have all criteria
+    replaced: by the top label 2T (``top``) or by 1000 (``literal``). ``criterion`` says which SAD is
+    looked at: 0 is the centred 3x3 one of eq. 7, 1 to 3 the criterion of that number. The paper's
+    Fig. 4 is met by ``top`` looking at criterion 3.
     """
 
     reading: Reading = "off"
     threshold: int = Field(default=1200, ge=0)
     min_disparity: int = Field(default=32, ge=0)
+    criterion: int = Field(default=0, ge=0, le=3)
 
 
 class Config(_Frozen):
@@ -145,7 +147,8 @@ class Config(_Frozen):
             if self.compensation_criterion is None:
                 raise ValueError(
                     "compensation looks at the centred 3x3 SAD, which is not among the criteria:"
-                    " add {kind = 'sad', window = 3, dx = 0} or use reading = 'off'"
+                    " add {kind = 'sad', window = 3, dx = 0}, name another with compensation.criterion, or"
+                    " use reading = 'off'"
                 )
         return self
 
@@ -312,7 +315,9 @@ class Config(_Frozen):
 
     @property
     def compensation_criterion(self) -> int | None:
-        """Index of the centred 3x3 SAD that the compensating rule looks at, if there is one."""
+        """Index of the criterion that the compensating rule looks at, if there is such a one."""
+        if self.compensation.criterion:
+            return self.compensation.criterion - 1
         found = [i for i, c in enumerate(self.criteria) if (c.window, c.dx) == (3, 0)]
         return found[0] if found else None
 

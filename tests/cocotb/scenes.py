@@ -84,7 +84,8 @@ def random_config(seed: int) -> Config:
     ]
     criteria[0]["window"] = max(criteria[0]["window"], 3)  # the support has more than one row
     reading = pick(["off", "top", "literal"]) if fuzzy else "off"
-    if reading != "off":
+    judged = int(rng.integers(4))
+    if reading != "off" and judged == 0:
         criteria[int(rng.integers(3))] = {"window": 3, "dx": 0, "label_bits": 12}
     return Config.from_dict(
         {
@@ -98,11 +99,15 @@ def random_config(seed: int) -> Config:
             "operator": pick(sorted(OPERATORS)),
             "rules": pick(["printed", "corrected"]),
             "membership_bits": int(rng.integers(3, 9)),
+            "softness": float(rng.choice([0.05, 0.05, 0.4])),
+            "sharpness": float(rng.choice([-100.0, 20.0])),
+            "max_multipliers": 1000,
             "criteria": criteria,
             "compensation": {
                 "reading": reading,
                 "threshold": int(rng.integers(0, 3000)),
                 "min_disparity": int(rng.integers(0, disparities + 1)),
+                "criterion": judged,
             },
         }
     )

@@ -40,7 +40,8 @@ def evaluate(config: Config, left: Planes, right: Planes) -> list[Values]:
 def compensate(config: Config, d: int, values: list[Values], replacement: list[int]) -> list[Values]:
     """The compensating rule: ``if d >= min_disparity and SAD > threshold, s_i := replacement_i``.
 
-    SAD is that of `Config.compensation_criterion`, compared before anything saturates (paper, section 4, step 3).
+    SAD is that of `Config.compensation_criterion`, compared before anything saturates (paper,
+    section 4, step 3).
     """
     rule = config.compensation
     if rule.reading == "off" or d < rule.min_disparity:

@@ -213,7 +213,23 @@ def test_lines_beyond_the_greatest_height_are_dropped(rates: tuple[float, float]
     high = lines(1, 5, MAX_HEIGHT + 2)
     after = lines(2, 5, 3)
     result = guarded([*source(lines(0, 5, 2)), *source(high), *source(after)], rates)
-    assert [f.lines for f in frames(result.payloads, CONFIG)] == [lines(0, 5, 2), high[:MAX_HEIGHT], after]
+    got = frames(result.payloads, CONFIG)
+    assert [f.lines for f in got] == [lines(0, 5, 2), high[:MAX_HEIGHT], after]
+    assert result.status == {"missing_starts": 1}
+    # The source has marked an end before: this frame is known to be cut, where its last line ends.
+    assert [f.end for f in got] == ["eof"] * 3
+    assert got[1].damaged == [False] * (5 * MAX_HEIGHT - 1) + [True]
+    assert not any(got[0].damaged + got[2].damaged)
+
+
+@pytest.mark.parametrize("rates", RATES)
+def test_a_source_without_ends_may_be_cut_undamaged(rates: tuple[float, float]) -> None:
+    """It tells of no end that the core could miss; its rest is dropped and counted."""
+    high = lines(1, 5, MAX_HEIGHT + 2)
+    result = guarded([*source(high, eof=False), *source(lines(2, 5, MAX_HEIGHT), eof=False)], rates)
+    got = frames(result.payloads, CONFIG)
+    assert [f.lines for f in got] == [high[:MAX_HEIGHT], lines(2, 5, MAX_HEIGHT)]
+    assert not any(any(f.damaged) for f in got)
     assert result.status == {"missing_starts": 1}
 
 

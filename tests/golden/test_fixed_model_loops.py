@@ -44,8 +44,12 @@ def loop_cost(left, right, x, y, d, c):
     tops = [2 * 2**i.label_bits for i in c.criteria]
     rule = c.compensation
     if rule.reading != "off" and d >= rule.min_disparity:
-        assert any((i.window, i.dx) == (3, 0) for i in c.criteria)
-        if loop_sad(left, right, x, y, d, 3, 0) > rule.threshold:
+        if rule.criterion == 0:
+            assert any((i.window, i.dx) == (3, 0) for i in c.criteria)
+            seen = loop_sad(left, right, x, y, d, 3, 0)
+        else:
+            seen = s[rule.criterion - 1]
+        if seen > rule.threshold:
             s = tops if rule.reading == "top" else [1000] * 3
     one = 2**c.membership_bits
     degree = {}
@@ -87,7 +91,7 @@ def loop_theta(a, b, c):
         case "soft_min_1":
             delta = c.softness
             return round(one * (x + y + delta**2 - math.sqrt((x - y) ** 2 + delta**2)) / 2)
-        case "soft_min_2":
+        case _:
             p, q = math.exp(-c.sharpness * x), math.exp(-c.sharpness * y)
             return round(one * (x * p + y * q) / (p + q))
 
@@ -132,8 +136,11 @@ def random_config(rng):
     disparities = int(rng.integers(2, 9))
     compensation = {}
     if cost == "fuzzy" and rng.random() < 0.6:
-        criteria[rng.integers(3)].update(window=3, dx=0)
+        looked_at = int(rng.integers(4))
+        if looked_at == 0:
+            criteria[rng.integers(3)].update(window=3, dx=0)
         compensation = {
+            "criterion": looked_at,
             "reading": str(rng.choice(["top", "literal"])),
             "threshold": int(rng.integers(0, 3000)),
             "min_disparity": int(rng.integers(0, disparities)),
@@ -217,6 +224,7 @@ def test_random_configurations_reach_every_branch():
     }
     assert {c.membership_bits for c in drawn} == set(range(2, 13))
     assert any(c.cost == "sad" for c in drawn)
+    assert {c.compensation.criterion for c in drawn} == set(range(4))
     soft = [c for c in drawn if c.cost == "fuzzy" and c.operator == "soft_min_2"]
     assert {c.sharpness > 0 for c in soft} == {False, True}
 

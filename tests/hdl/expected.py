@@ -92,8 +92,9 @@ def compensated(values: Sequence[int], near: bool, config: Config) -> list[int]:
     rule = config.compensation
     if rule.reading == "off" or not near:
         return list(values)
-    centred = next(i for i, c in enumerate(config.criteria) if (c.window, c.dx) == (3, 0))
-    if values[centred] <= rule.threshold:
+    centred = (i for i, c in enumerate(config.criteria) if (c.window, c.dx) == (3, 0))
+    looked_at = rule.criterion - 1 if rule.criterion else next(centred)
+    if values[looked_at] <= rule.threshold:
         return list(values)
     return [2 * 2**c.label_bits if rule.reading == "top" else 1000 for c in config.criteria]
 

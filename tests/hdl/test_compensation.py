@@ -1,4 +1,4 @@
-"""Compensation: both readings, off, and the threshold's two sides."""
+"""Compensation: both readings, off, every criterion it may look at, and the threshold's two sides."""
 
 from random import Random
 from typing import Any
@@ -20,20 +20,25 @@ from .support import config, piped, sad
         [sad(1, label_bits=12), sad(3, 2, label_bits=8), sad(3, label_bits=14)],  # 2T exceeds every sum
     ],
 )
-def test_replaces_all_criteria_of_a_near_candidate(reading: str, criteria: list[dict[str, int]]) -> None:
-    threshold = 1200
-    c = config(criteria=criteria, compensation={"reading": reading, "threshold": threshold})
+@pytest.mark.parametrize("criterion", range(4))
+def test_replaces_all_criteria_of_a_near_candidate(
+    reading: str, criteria: list[dict[str, int]], criterion: int
+) -> None:
+    threshold = 700
+    rule = {"reading": reading, "threshold": threshold, "criterion": criterion}
+    c = config(criteria=criteria, compensation=rule)
     centred = criteria.index(next(s for s in criteria if (s["window"], s["dx"]) == (3, 0)))
+    looked_at = criterion - 1 if criterion else centred
     random = Random(5)
     sets = []
-    for seen in (0, threshold - 1, threshold, threshold + 1, c.criteria[centred].maximum):
+    for seen in (0, threshold - 1, threshold, threshold + 1, c.criteria[looked_at].maximum):
         for near in (0, 1):
             for fill in ("random", "all zero", "all full"):
                 values = [
                     {"random": random.randint(0, s.maximum), "all zero": 0, "all full": s.maximum}[fill]
                     for s in c.criteria
                 ]
-                values[centred] = seen
+                values[looked_at] = seen
                 sets.append((values, near))
     clocks: list[Any] = [{"i": {f"s{i}": v for i, v in enumerate(values)}, "near": n} for values, n in sets]
     got = piped(Compensation(c), clocks)

@@ -13,7 +13,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast bench compare lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast bench compare paper lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -32,6 +32,9 @@ bench: $(READY) ## measure speed and write docs/benchmarks.md
 	@$(BIN)/softdepth bench
 
 # Middlebury's images: in the folder that SOFTDEPTH_DATA names, or downloaded.
+paper: $(READY) ## the paper's tables and pictures: out/paper, docs/paper.md
+	@$(BIN)/softdepth paper -o out/paper --document docs/paper.md
+
 compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
 	@for method in "paper mean" "paper min" "lite mean"; do set -- $$method; \
 		for pair in teddy cones venus; do \

@@ -12,7 +12,7 @@ from softdepth.config import Reading as Rule
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.metrics import Metrics, evaluate, paper_rmse
-from softdepth.paper import matchers, prototype
+from softdepth.paper import matchers, variants
 from softdepth.paper.margins import Margins
 from softdepth.paper.readings import Reading
 from softdepth.paper.scenes import Scene
@@ -23,13 +23,18 @@ Advance = Callable[[int], None]
 
 @dataclass(frozen=True)
 class Cell:
-    """A scene under a reading, with an operator (None: the method has none) and an engine."""
+    """A scene under a reading, with an operator (None: the method has none) and an engine.
+
+    `rule` is the compensating rule as the core has it, judged by the 3x3 SAD; with `judged_by`, the
+    window of another SAD, it is the float model's alone.
+    """
 
     scene: str
     reading: Reading
     operator: Operator | None
     engine: Engine
     rule: Rule = "off"
+    judged_by: int | None = None
 
     @property
     def config(self) -> Config:
@@ -52,9 +57,9 @@ def compute(cell: Cell, scene: Scene, advance: Advance | None = None) -> Found:
     method = cell.reading.method
     if method in matchers.PARAMETERS:
         disparity, valid = matchers.disparity(scene.left, scene.right, cell.reading)
-    elif method == "prototype":
+    elif method == "prototype" or cell.judged_by is not None:
         assert cell.operator is not None
-        disparity = prototype.disparity(scene.left, scene.right, cell.reading, cell.operator)
+        disparity = variants.disparity(scene.left, scene.right, cell.reading, cell.operator, cell.judged_by)
         valid = np.ones(disparity.shape, bool)
     else:
         found = _core(cell, scene, advance)

@@ -11,7 +11,7 @@ from softdepth.paper.cells import Cell, metrics, rmse
 from softdepth.paper.published import SCENES
 from softdepth.paper.readings import Reading
 from softdepth.paper.speed import Speeds
-from softdepth.paper.work import RULE_OPERATOR, RULE_SCENE, Maps
+from softdepth.paper.work import RULE_OPERATOR, RULE_SCENE, Maps, rule_cells
 
 SCHEMA = 1
 
@@ -70,7 +70,7 @@ def assemble(maps: Maps, reading: Reading, speeds: Speeds) -> Document:
         readings={key: text(each) for key, each in used.items()},
         table2=rows,
         one_view=plain,
-        summary=table2.summarise(rows, plain, tried),
+        summary=table2.summarise(rows, plain, tried, table2.sad_against_its_own_truth(maps)),
         metrics=scores(maps, reading),
         figure4=figure4.points(scenes.load(RULE_SCENE, reading.size), reading),
         figure5=_rule(maps, reading),
@@ -123,10 +123,14 @@ def score(maps: Maps, method: str, cell: Cell) -> Score:
 
 
 def _rule(maps: Maps, reading: Reading) -> list[Score]:
-    """Fig. 5's maps: SAD, and soft-min I without and with the compensating rule."""
-    cells = {
+    return [score(maps, name, cell) for name, cell in figure5(reading).items()]
+
+
+def figure5(reading: Reading) -> dict[str, Cell]:
+    """Fig. 5's maps: SAD, and soft-min I without and with the compensating rule; else empty."""
+    judged = {f"rule judged by {c.judged_by or 3}x{c.judged_by or 3}": c for c in rule_cells(reading)}
+    plain = {
         "SAD": Cell(RULE_SCENE, readings.SAD, None, "float"),
-        "without the rule": Cell(RULE_SCENE, reading, RULE_OPERATOR, "float"),
-        "with the rule": Cell(RULE_SCENE, reading, RULE_OPERATOR, "float", "top"),
+        "no rule": Cell(RULE_SCENE, reading, RULE_OPERATOR, "float"),
     }
-    return [score(maps, name, cell) for name, cell in cells.items() if cell in maps]
+    return plain | judged if judged else {}

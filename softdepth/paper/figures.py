@@ -2,6 +2,7 @@
 
 import base64
 import io
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -43,15 +44,17 @@ def truth_gray(truth: Truth) -> str:
     return _picture(np.repeat(truth.gray.astype(np.uint8)[:, :, None], 3, axis=2))
 
 
-def curve(point: Point) -> str:
-    """Fig. 4 b and c: the cost of every candidate, before the rule and after it."""
-    figure = Figure(figsize=(9.2, 2.9), dpi=110, facecolor="white", layout="constrained")
+def curves(points: Sequence[Point]) -> str:
+    """Fig. 4 b and c: a pixel's cost of every candidate, without the rule and with it, by its judge."""
+    figure = Figure(figsize=(13.2, 2.9), dpi=110, facecolor="white")
     canvas = FigureCanvasAgg(figure)
-    axes = figure.subplots(1, 2, sharey=True)
-    panels = (
-        ("before the rule", point.costs_before, point.before, _BEFORE),
-        ("after the rule", point.costs_after, point.after, _AFTER),
-    )
+    axes = figure.subplots(1, 1 + len(points), sharey=True)
+    figure.subplots_adjust(left=0.04, right=0.995, bottom=0.17, top=0.9, wspace=0.06)
+    panels = [("no rule", points[0].costs_before, points[0].before, _BEFORE)]
+    panels += [
+        (f"rule judged by {p.judged_by}x{p.judged_by}", p.costs_after, p.after, _AFTER) for p in points
+    ]
+    top = 1.2 * max(points[0].costs_before)
     for ax, (title, costs, least, colour) in zip(axes, panels, strict=True):
         index = np.arange(1, len(costs) + 1)
         ax.plot(index, costs, color=colour, linewidth=1.4)
@@ -59,7 +62,7 @@ def curve(point: Point) -> str:
         ax.annotate(
             f"{least}",
             (least, costs[least - 1]),
-            xytext=(0, -14),
+            xytext=(0, -15),
             textcoords="offset points",
             ha="center",
             color=colour,
@@ -69,7 +72,7 @@ def curve(point: Point) -> str:
         ax.set_title(title, fontsize=10, color=_INK)
         ax.set_xlabel("candidate, counted from one", fontsize=9, color=_INK)
         ax.set_xlim(1, len(costs))
-        ax.set_ylim(-1.3, 10.6)
+        ax.set_ylim(-0.2 * top, top)  # rejected candidates cost 10, far above
         ax.grid(alpha=0.25)
         ax.tick_params(labelsize=8, colors=_INK)
         ax.spines[["top", "right"]].set_visible(False)
@@ -82,5 +85,5 @@ def curve(point: Point) -> str:
 def _picture(rgb: np.ndarray) -> str:
     """With a palette: the maps have at most 256 colours, and the page a third of the bytes."""
     file = io.BytesIO()
-    Image.fromarray(rgb).quantize(256).save(file, "PNG", optimize=True)
+    Image.fromarray(rgb).quantize(256).save(file, "PNG")
     return data_uri(file.getvalue())

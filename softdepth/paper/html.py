@@ -3,15 +3,16 @@
 import re
 from collections.abc import Iterable, Sequence
 from html import escape
+from itertools import groupby
 
-from softdepth.config import OPERATORS, Operator
+from softdepth.config import OPERATORS
 from softdepth.golden.pictures import ERROR_COLOURS
 from softdepth.paper import figures, pages, readings, scenes
-from softdepth.paper.cells import Cell
-from softdepth.paper.document import Document
+from softdepth.paper.cells import Cell, rmse
+from softdepth.paper.document import Document, figure5
 from softdepth.paper.published import SCENES, TITLES
 from softdepth.paper.readings import Reading
-from softdepth.paper.work import RULE_OPERATOR, RULE_SCENE, Maps
+from softdepth.paper.work import RULE_SCENE, Maps
 
 _STYLE = """
 :root { color-scheme: light; }
@@ -32,7 +33,7 @@ figcaption { font-size: 12px; color: #59636e; padding: 2px 1px 6px; line-height:
 .legend span { display: inline-block; margin-right: 18px; font-size: 12.5px; color: #59636e; }
 .legend i { display: inline-block; width: 12px; height: 12px; border: 1px solid #8c959f; margin-right: 6px;
   vertical-align: -1px; }
-.curve { max-width: 920px; width: 100%; }
+.curve { width: 100%; }
 """
 
 _SOURCE = (
@@ -145,8 +146,8 @@ def _pictures(found: Sequence[str], columns: int) -> str:
 def _table3(maps: Maps, reading: Reading) -> str:
     maximum = reading.candidates - 1
     text = [
-        f"<p>Float model. Above the disparity, 0 (blue) to {maximum} (red) px; below, its error in its own"
-        f" view ({reading.view}).</p>",
+        f"<p>Float model. Above the disparity, 0 (blue) to {maximum} (red) px, with the paper's RMSE; below,"
+        f" the error in its own view ({reading.view}).</p>",
         _legend(),
     ]
     for title, plan in (("FMCDM", reading), ('"[11]", the reading tried', readings.PROTOTYPE)):
@@ -154,7 +155,10 @@ def _table3(maps: Maps, reading: Reading) -> str:
             scene = scenes.load(name, plan.size)
             text.append(f"<h3>{title}: {name.capitalize()}</h3>")
             found = [(o, maps[Cell(name, plan, o, "float")]) for o in OPERATORS]
-            row = [_figure(figures.depth(m, maximum), TITLES[o]) for o, m in found]
+            row = [
+                _figure(figures.depth(m, maximum), f"{TITLES[o]}, {rmse(m, plan, scene):.2f}")
+                for o, m in found
+            ]
             row += [
                 _figure(figures.errors(m, scene.truths[plan.view]), f"{TITLES[o]}, error") for o, m in found
             ]
@@ -175,29 +179,20 @@ def _figure4(document: Document) -> str:
         "<p>Teddy, right view, soft-min I, T = 5000. The paper has 62 before the rule and 16 after it, at"
         " x = 254, y = -68. Where the rule fires, all inputs become 2T.</p>"
     ]
-    for point in document.figure4:
-        text = f"x = {point.x}, y = {point.y}; the rule judges the {point.judged_by}x{point.judged_by} SAD"
-        parts.append(f'<h3>{text}</h3><img class="curve" src="{figures.curve(point)}" alt="{text}">')
+    for (x, y), group in groupby(document.figure4, key=lambda p: (p.x, p.y)):
+        text = f"x = {x}, y = {y}, counted from zero"
+        source = figures.curves(list(group))
+        parts.append(f'<h3>{text}</h3><img class="curve" src="{source}" alt="{text}">')
     return "\n".join(parts)
 
 
 def _figure5(document: Document, maps: Maps, reading: Reading) -> str:
     if not document.figure5:
         return f"<p>Reading {escape(reading.name)} has no 3x3 SAD, which the rule looks at.</p>"
-    operator: Operator = RULE_OPERATOR
-    cells = (
-        Cell(RULE_SCENE, readings.SAD, None, "float"),
-        Cell(RULE_SCENE, reading, operator, "float"),
-        Cell(RULE_SCENE, reading, operator, "float", "top"),
-    )
     row = []
-    for cell, score, name in zip(
-        cells, document.figure5, ("SAD", "soft-min I", "soft-min I with the rule"), strict=True
-    ):
-        caption = (
-            f"{name}: paper's RMSE {score.paper_rmse:.2f}, bad-1.0 {pages.figure(score.metrics['bad1'])} %"
-        )
-        row.append(_figure(figures.gray(maps[cell], cell.reading.first), caption))
+    for (name, cell), score in zip(figure5(reading).items(), document.figure5, strict=True):
+        numbers = f"paper's RMSE {score.paper_rmse:.2f}, bad-1.0 {pages.figure(score.metrics['bad1'])} %"
+        row.append(_figure(figures.gray(maps[cell], cell.reading.first), f"{name}: {numbers}"))
     truth = scenes.load(RULE_SCENE, reading.size).truths[reading.truth]
     row.append(_figure(figures.truth_gray(truth), f"truth of the {reading.truth} view"))
     return (

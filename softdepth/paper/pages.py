@@ -1,12 +1,13 @@
 """The evaluation as Markdown, and its table for the terminal."""
 
 from collections.abc import Iterable, Sequence
+from itertools import groupby
 
 from rich.table import Table
 
-from softdepth.paper import published
+from softdepth.paper import figure4, published
 from softdepth.paper.document import Document, Score
-from softdepth.paper.speed import Speeds
+from softdepth.paper.speed import TIE, Speeds
 from softdepth.paper.table2 import Row
 
 COLUMNS = ("published", "float", "fixed", "gateware", "deviation")
@@ -20,6 +21,11 @@ def figure(value: float | None, digits: int = 2, sign: bool = False) -> str:
 def operator(name: str | None) -> str:
     """An operator as the paper names it."""
     return "" if name is None else published.TITLES[name]
+
+
+def below(gain: float) -> str:
+    """How far a figure lies below another, in per cent of that; a negative gain is above it."""
+    return f"{abs(gain):.0f} % {'below' if gain >= 0 else 'above'}"
 
 
 def figures(row: Row) -> list[str]:
@@ -56,12 +62,13 @@ def findings(document: Document) -> list[str]:
         f" out ({s.fmcdm_mean_deviation_15:.2f} with it), by reading {name}; other readings: {others}."
         f" In fixed point it is {s.fixed_mean_deviation_14:.2f}; fixed and float differ by"
         f" {s.fixed_float_max_difference:.2f} at most.",
-        "**The published gain compares two views.** The SAD row is met only by the left view's map scored"
-        " against the right view's truth; the FMCDM rows by the right view's map against that same truth."
+        "**The published gain compares two views.** The SAD row is met by the left view's map scored against"
+        " the right view's truth (against its own it would be off by"
+        f" {s.sad_own_truth_max_deviation:.2f}); the FMCDM rows by the right view's map against that truth."
         f" Published so, FMCDM lies {s.gain_published:.0f} % below SAD (here {s.gain_two_views:.0f} %)."
-        f" With SAD 3x3 in FMCDM's own view, truth, border and drawing, {s.gain_one_view:.0f} % remain;"
-        f" against plain {wide} there, {s.gain_over_wide_sad:.0f} %: what is left comes from the larger"
-        " window, not from the inference.",
+        f" In FMCDM's own view, truth, border and drawing, it lies {below(s.gain_one_view)} SAD 3x3, and"
+        f" {below(s.gain_over_wide_sad)} plain {wide}: what is left comes from the larger windows, not from"
+        " the inference.",
         f'The method "[11]" is not described. The nearest of the readings tried is off by'
         f" {s.prototype_mean_deviation:.2f} on average: it is **not reproduced**.",
         *_rule_lines(document),
@@ -110,7 +117,7 @@ def markdown(document: Document, level: int = 2) -> str:
         ),
         "\n" + "; ".join(f"{name}: {text}" for name, text in document.opencv.items()) + ".",
         f"\n{mark} Speed\n",
-        f"Nanoseconds a pixel on one core of {document.speed.processor}, all in one run; clocks a pixel of"
+        f"Nanoseconds a pixel on one core of {document.speed.processor}, in one run (times within 5 % are equal); clocks a pixel of"
         f" the gateware with as many lanes as {document.speed.multipliers} multipliers allow.\n",
         grid(
             ["operator", "float, ns", "fixed, ns", "lanes", "clocks per pixel", "multipliers", "LUTs a lane"],
@@ -159,20 +166,24 @@ def _reading_rows(document: Document) -> list[list[str]]:
 
 
 def _rule_lines(document: Document) -> list[str]:
-    said = [
-        f"at ({p.x}, {p.y}) judged by {p.judged_by}x{p.judged_by}: {p.before} becomes {p.after}"
-        for p in document.figure4
-    ]
+    said = []
+    for pixel, group in groupby(document.figure4, key=lambda p: (p.x, p.y)):
+        found = list(group)
+        after = ", ".join(f"{p.after} judged by {p.judged_by}x{p.judged_by}" for p in found)
+        said.append(f"at {pixel}, {found[0].before} becomes {after}")
     lines = [
-        "The compensating rule at Fig. 4's pixel, where the paper has 62 become 16 (indices from one, soft-min"
-        f" I, inputs replaced by 2T): {'; '.join(said)}."
+        f"**The compensating rule.** At Fig. 4's pixel the paper has {figure4.BEFORE} become {figure4.AFTER}."
+        f" Here, with indices from one, soft-min I and inputs replaced by 2T: {'; '.join(said)}."
+        " The paper says SAD and not which; its rows may count from one."
     ]
-    if len(document.figure5) == 3:
-        _, without, with_rule = document.figure5
+    if document.figure5:
+        _, without, *judged = document.figure5
+        after = " and ".join(
+            f"{s.paper_rmse:.2f} and {figure(s.metrics['bad1'])} % ({s.method})" for s in judged
+        )
         lines.append(
-            f"On the whole map (Teddy, soft-min I, judged by 3x3) the rule moves the paper's RMSE from"
-            f" {without.paper_rmse:.2f} to {with_rule.paper_rmse:.2f} and bad-1.0 from"
-            f" {figure(without.metrics['bad1'])} % to {figure(with_rule.metrics['bad1'])} %."
+            "On the whole map (Teddy, soft-min I) the paper's RMSE and bad-1.0 go from"
+            f" {without.paper_rmse:.2f} and {figure(without.metrics['bad1'])} % to {after}."
         )
     return lines
 
@@ -183,11 +194,14 @@ def _fastest(speeds: Speeds) -> str:
     for engine in ("float", "fixed"):
         first = speeds.fastest(engine)
         times = {s.operator: getattr(s, f"{engine}_ns") for s in speeds.operators}
-        if first == "mean":
-            verdicts.append(f"it holds in {engine}")
+        ratio = times["mean"] / times[first]
+        tied = [operator(o) for o, t in times.items() if o != "mean" and t < TIE * times["mean"]]
+        if ratio >= TIE:
+            verdicts.append(f"not in {engine}, where {operator(first)} is ({ratio:.2f} times as fast)")
+        elif tied:
+            verdicts.append(f"in {engine} it is no slower than any, and no faster than {', '.join(tied)}")
         else:
-            share = times["mean"] / times[first]
-            verdicts.append(f"not in {engine}, where {operator(first)} is ({share:.2f} times as fast)")
+            verdicts.append(f"it holds in {engine}")
     least = speeds.fewest_clocks
     every = "all operators take" if len(least) == len(speeds.operators) else ", ".join(map(operator, least))
     tail = "the same clocks" if len(least) == len(speeds.operators) else "take the fewest clocks"

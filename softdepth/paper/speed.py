@@ -15,8 +15,11 @@ from softdepth.golden import fixed_model, float_model
 from softdepth.paper.readings import MULTIPLIERS, Reading
 from softdepth.paper.scenes import Scene
 
-ROWS, REPEATS = 48, 3
+ROWS, REPEATS = 48, 5
 """Rows of a scene that are timed, and how often; the operators take turns, the best time counts."""
+
+TIE = 1.05
+"""Times that differ by less than this are one: what repeated runs differ by."""
 
 LANES = 64
 
@@ -26,7 +29,7 @@ class Speed(BaseModel):
 
     Members
     -------
-    float_ns, fixed_ns : nanoseconds a pixel on one core.
+    float_ns, fixed_ns : nanoseconds of processor time a pixel, on one core.
     lanes, clocks : the most lanes that the multipliers of the target allow, and their clocks a pixel.
     multipliers : what these lanes take.
     luts_per_lane : from `utilization`, or None: not measured.
@@ -69,9 +72,9 @@ def measure(scene: Scene, reading: Reading) -> Speeds:
         for operator in OPERATORS:
             config = reading.config(operator)
             for name, model in (("float", float_model.disparity), ("fixed", fixed_model.disparity)):
-                start = time.perf_counter()
+                start = time.process_time()
                 model(left, right, config)
-                seconds = time.perf_counter() - start
+                seconds = time.process_time() - start
                 best[operator, name] = min(seconds, best.get((operator, name), np.inf))
     return Speeds(
         processor=processor(),

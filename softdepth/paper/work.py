@@ -4,6 +4,7 @@ import multiprocessing
 import os
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
+from dataclasses import replace
 
 from softdepth.config import OPERATORS
 from softdepth.errors import ToolError
@@ -32,9 +33,19 @@ def models(reading: Reading) -> list[Cell]:
     cells += [Cell(s, readings.PROTOTYPE, o, "float") for s in SCENES for o in OPERATORS]
     for method in readings.MATCHERS:
         cells += [Cell(s, readings.matcher(reading, method), None, "float") for s in SCENES]
-    if 3 in reading.windows:
-        cells += [Cell(RULE_SCENE, reading, RULE_OPERATOR, e, "top") for e in both]
+    cells += rule_cells(reading)
     return list(dict.fromkeys(cells))
+
+
+def rule_cells(reading: Reading) -> list[Cell]:
+    """Maps with the compensating rule: as the core has it, and judged by the largest window.
+
+    None for a reading without a 3x3 SAD, which the core's rule looks at.
+    """
+    if 3 not in reading.windows or reading.leaving == "excluded":
+        return []
+    core = Cell(RULE_SCENE, reading, RULE_OPERATOR, "float", "top")
+    return [core, replace(core, judged_by=max(reading.windows))]
 
 
 def gateware(reading: Reading, scene_names: Sequence[str], operators: Sequence[str]) -> list[Cell]:

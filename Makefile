@@ -23,10 +23,10 @@ demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/moto
 	@echo "left, right and depth: $(CURDIR)/$(DEMO)/overview.png"
 
 test: $(READY) ## the whole test suite (a part of it: make test TESTS=tests/golden)
-	@$(BIN)/pytest -n auto $(TESTS)
+	@$(BIN)/pytest -n auto --dist worksteal $(TESTS)
 
 test-fast: $(READY) ## the tests that take seconds
-	@$(BIN)/pytest -n auto -m "not slow" $(TESTS)
+	@$(BIN)/pytest -n auto --dist worksteal -m "not slow" $(TESTS)
 
 bench: $(READY) ## measure speed and write docs/benchmarks.md
 	@$(BIN)/softdepth bench

@@ -6,6 +6,10 @@ from dataclasses import dataclass
 from amaranth.hdl import Array, Const, Module, Mux, Shape, Signal, Value, ValueLike
 
 
+SMALL_TABLE = 128
+"""Tables up to this length are selected from entry by entry, which is smaller but slow to elaborate."""
+
+
 @dataclass(frozen=True)
 class Word:
     """A number in a pipeline: its signal, the range it can take, and the clock it is valid in."""
@@ -104,6 +108,9 @@ class Pipeline:
         """``table[word]``; the last entry holds for every larger index."""
         low, high = min(table), max(table)
         entries = [Const(value, _shape(low, high)) for value in table]
+        if len(table) > SMALL_TABLE:
+            starts = [0, *(i for i in range(1, len(table)) if table[i] != table[i - 1])]
+            return self.register(_search(word.value, entries, starts), low, high, word.time)
         beyond = word.value >= len(table) - 1
         return self.register(Mux(beyond, entries[-1], Array(entries)[word.value]), low, high, word.time)
 
@@ -133,6 +140,15 @@ class Pipeline:
 def tree_latency(words: int) -> int:
     """Clocks that `Pipeline.tree` takes for so many words."""
     return (words - 1).bit_length()
+
+
+def _search(index: Value, entries: Sequence[Const], starts: Sequence[int]) -> Value:
+    """Binary search of the run of equal entries that holds ``index``, by where each run starts."""
+    if len(starts) == 1:
+        return entries[starts[0]]
+    half = len(starts) // 2
+    upper, lower = (_search(index, entries, part) for part in (starts[half:], starts[:half]))
+    return Mux(index >= starts[half], upper, lower)
 
 
 def _shape(minimum: int, maximum: int) -> Shape:

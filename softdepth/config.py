@@ -309,7 +309,10 @@ class Config(_Frozen):
             return -(-bits // MULTIPLIER_BITS)
 
         comparisons = self.lanes - 1 + (self.steps - 1).bit_length()
-        num, den = ((high - low).bit_length() for low, high in self.cost_range)
+        (num_low, num_high), (_, den_high) = self.cost_range
+        sign = num_low < 0
+        num = max(num_high.bit_length(), (~num_low).bit_length()) + sign
+        den = den_high.bit_length() + sign
         thetas = factorised_thetas(self.rules) if self.operator == "prod" else 0
         return 2 * comparisons * tiles(num) * tiles(den) + thetas * self.lanes
 

@@ -50,7 +50,6 @@ def tiles(a: int, b: int) -> int:
                 "softness": 0.003,
             },
             4,
-            marks=pytest.mark.xfail(strict=True, reason="Config.multipliers leaves out the sign"),
         ),
         ({"operator": "soft_min_2", "disparities": 4, "lanes": 2}, 4),
     ],

@@ -225,8 +225,4 @@ def _speed(document: Document) -> str:
         _row([_cell(name), *(_cell(n, "n") for n in rest)])
         for name, *rest in pages.speed_rows(document.speed)
     )
-    return (
-        f"<p>Nanoseconds a pixel on one core of {escape(document.speed.processor)}, all in one run; clocks"
-        f" of the gateware with as many lanes as {document.speed.multipliers} multipliers allow.</p>"
-        + _grid(head, rows, numbers=1)
-    )
+    return f"<p>{escape(pages.speed_text(document.speed))}</p>" + _grid(head, rows, numbers=1)

@@ -7,7 +7,7 @@ from rich.table import Table
 
 from softdepth.paper import figure4, published
 from softdepth.paper.document import Document, Score
-from softdepth.paper.speed import TIE, Speeds
+from softdepth.paper.speed import LANES, TIE, Speeds
 from softdepth.paper.table2 import Row
 
 COLUMNS = ("published", "float", "fixed", "gateware", "deviation")
@@ -76,8 +76,8 @@ def findings(document: Document) -> list[str]:
     ]
     if s.rtl_cells:
         lines.append(
-            f"{s.rtl_cells} cells of Table 2 went through the simulated gateware: {s.rtl_mismatches} pixels"
-            " differ from the fixed-point model."
+            f"Through the simulated gateware went {s.rtl_cells} of the table's cells:"
+            f" {s.rtl_mismatches} pixels differ from the fixed-point model."
         )
     return lines
 
@@ -117,8 +117,7 @@ def markdown(document: Document, level: int = 2) -> str:
         ),
         "\n" + "; ".join(f"{name}: {text}" for name, text in document.opencv.items()) + ".",
         f"\n{mark} Speed\n",
-        f"Nanoseconds a pixel on one core of {document.speed.processor}, in one run (times within 5 % are equal); clocks a pixel of"
-        f" the gateware with as many lanes as {document.speed.multipliers} multipliers allow.\n",
+        f"{speed_text(document.speed)}\n",
         grid(
             ["operator", "float, ns", "fixed, ns", "lanes", "clocks per pixel", "multipliers", "LUTs a lane"],
             ["---", *["---:"] * 6],
@@ -144,6 +143,15 @@ def score_row(score: Score) -> list[str]:
         figure(score.paper_rmse),
         *pairs,
     ]
+
+
+def speed_text(speeds: Speeds) -> str:
+    """What the speed table shows."""
+    return (
+        f"Nanoseconds of processor time a pixel, on one core of {speeds.processor}, all in one run; times"
+        f" within {100 * (TIE - 1):.0f} % count as equal. Clocks a pixel of the gateware, with as many lanes (up to"
+        f" {LANES}) as {speeds.multipliers} multipliers allow."
+    )
 
 
 def speed_rows(speeds: Speeds) -> list[list[str]]:

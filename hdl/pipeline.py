@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from amaranth.hdl import Array, Const, Module, Mux, Shape, Signal, Value, ValueLike
 
-
 SMALL_TABLE = 128
 """Tables up to this length are selected from entry by entry, which is smaller but slow to elaborate."""
 

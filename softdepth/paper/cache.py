@@ -20,7 +20,7 @@ from softdepth.golden.writers import write_atomically
 from softdepth.paper.cells import Cell, Found
 
 _PACKAGE = Path(__file__).resolve().parent.parent
-_HERE = ("readings", "margins", "variants", "matchers", "cells", "scenes")
+_HERE = ("readings", "margins", "prototype", "matchers", "cells", "scenes")
 
 
 def folder() -> Path:
@@ -81,7 +81,6 @@ def key(cell: Cell, images: str) -> str:
             "reading": reading,
             "operator": cell.operator,
             "engine": cell.engine,
-            "judged_by": cell.judged_by,
             "config": cell.config.hash if cell.reading.windows else None,
             "images": images,
             "source": source_version(cell.engine == "rtl"),

@@ -12,7 +12,7 @@ from softdepth.config import Reading as Rule
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.metrics import Metrics, evaluate, paper_rmse
-from softdepth.paper import matchers, variants
+from softdepth.paper import matchers, prototype
 from softdepth.paper.margins import Margins
 from softdepth.paper.readings import Reading
 from softdepth.paper.scenes import Scene
@@ -25,8 +25,7 @@ Advance = Callable[[int], None]
 class Cell:
     """A scene under a reading, with an operator (None: the method has none) and an engine.
 
-    `rule` is the compensating rule as the core has it, judged by the 3x3 SAD; with `judged_by`, the
-    window of another SAD, it is the float model's alone.
+    The compensating rule `rule` looks at criterion number `judge`, from one.
     """
 
     scene: str
@@ -34,12 +33,12 @@ class Cell:
     operator: Operator | None
     engine: Engine
     rule: Rule = "off"
-    judged_by: int | None = None
+    judge: int = 1
 
     @property
     def config(self) -> Config:
         """The core that computes it."""
-        return self.reading.config(self.operator or "mean", self.rule)
+        return self.reading.config(self.operator or "mean", self.rule, self.judge)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +56,9 @@ def compute(cell: Cell, scene: Scene, advance: Advance | None = None) -> Found:
     method = cell.reading.method
     if method in matchers.PARAMETERS:
         disparity, valid = matchers.disparity(scene.left, scene.right, cell.reading)
-    elif method == "prototype" or cell.judged_by is not None:
+    elif method == "prototype":
         assert cell.operator is not None
-        disparity = variants.disparity(scene.left, scene.right, cell.reading, cell.operator, cell.judged_by)
+        disparity = prototype.disparity(scene.left, scene.right, cell.reading, cell.operator)
         valid = np.ones(disparity.shape, bool)
     else:
         found = _core(cell, scene, advance)

@@ -1,5 +1,6 @@
 """``paper.json``: everything that the evaluation found, in one document."""
 
+from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
 
@@ -8,9 +9,11 @@ from pydantic import BaseModel
 from softdepth.config import OPERATORS, Operator
 from softdepth.paper import figure4, matchers, readings, scenes, table2
 from softdepth.paper.cells import Cell, metrics, rmse
+from softdepth.paper.figure4 import Point
 from softdepth.paper.published import SCENES
 from softdepth.paper.readings import Reading
 from softdepth.paper.speed import Speeds
+from softdepth.paper.table2 import Row, Summary
 from softdepth.paper.work import RULE_OPERATOR, RULE_SCENE, Maps, rule_cells
 
 SCHEMA = 1
@@ -45,11 +48,11 @@ class Document(BaseModel):
 
     schema_version: int = SCHEMA
     readings: dict[str, ReadingText]
-    table2: list[table2.Row]
-    one_view: list[table2.Row]
-    summary: table2.Summary
+    table2: list[Row]
+    one_view: list[Row]
+    summary: Summary
     metrics: list[Score]
-    figure4: list[figure4.Point]
+    figure4: list[Point]
     figure5: list[Score]
     speed: Speeds
     opencv: dict[str, str]
@@ -72,7 +75,7 @@ def assemble(maps: Maps, reading: Reading, speeds: Speeds) -> Document:
         one_view=plain,
         summary=table2.summarise(rows, plain, tried, table2.sad_against_its_own_truth(maps)),
         metrics=scores(maps, reading),
-        figure4=figure4.points(scenes.load(RULE_SCENE, reading.size), reading),
+        figure4=figure4.points(scenes.load(RULE_SCENE), tuple(readings.FMCDM.values())),
         figure5=_rule(maps, reading),
         speed=speeds,
         opencv={m: matchers.parameters_text(m) for m in readings.MATCHERS},
@@ -87,7 +90,7 @@ def text(reading: Reading) -> ReadingText:
 
 def scores(maps: Maps, reading: Reading) -> list[Score]:
     """The standard metrics of every map but the other readings', scene by scene."""
-    plans: list[tuple[str, Reading, list[Operator | None]]] = [
+    plans: list[tuple[str, Reading, Sequence[Operator | None]]] = [
         ("SAD", readings.SAD, [None]),
         ("[11]", readings.PROTOTYPE, list(OPERATORS)),
         ("FMCDM", reading, list(OPERATORS)),
@@ -127,10 +130,12 @@ def _rule(maps: Maps, reading: Reading) -> list[Score]:
 
 
 def figure5(reading: Reading) -> dict[str, Cell]:
-    """Fig. 5's maps: SAD, and soft-min I without and with the compensating rule; else empty."""
-    judged = {f"rule judged by {c.judged_by or 3}x{c.judged_by or 3}": c for c in rule_cells(reading)}
-    plain = {
+    """Fig. 5's maps: SAD, and soft-min I without and with the compensating rule."""
+    cells = {
         "SAD": Cell(RULE_SCENE, readings.SAD, None, "float"),
         "no rule": Cell(RULE_SCENE, reading, RULE_OPERATOR, "float"),
     }
-    return plain | judged if judged else {}
+    for cell in rule_cells(reading):
+        window = reading.windows[cell.judge - 1]
+        cells[f"rule judged by {window}x{window}"] = cell
+    return cells

@@ -1,12 +1,8 @@
 """Fig. 4: the cost curve of one pixel, before and after the compensating rule."""
 
-from collections.abc import Mapping
-
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel
 
-from softdepth.paper import variants
+from softdepth.golden import float_model
 from softdepth.paper.readings import Reading
 from softdepth.paper.scenes import Scene
 
@@ -14,18 +10,16 @@ BEFORE, AFTER = 62, 16
 """What the paper has at its pixel."""
 
 COLUMN, ROW = 254, 68
-"""The pixel that the paper names (x = 254, y = -68), columns and rows counted from zero."""
-
-PIXELS = ((COLUMN, ROW), (COLUMN, ROW - 1))
-"""That pixel, and the one above it: row 68 when rows are counted from one."""
+"""The pixel that the paper names (x = 254, y = -68). Like its disparities, it is met counting from one."""
 
 
 class Point(BaseModel):
-    """A pixel's curves. Indices count the candidates from one, as the paper's figure does.
+    """A pixel's curves. Everything is counted from one: the pixel, and the candidates.
 
     Members
     -------
-    x, y : the pixel, counted from zero.
+    x, y : the pixel.
+    windows : the criteria.
     judged_by : the window whose sum the rule compares with its threshold.
     before, after : index of the least cost without the rule, and with it.
     costs_before, costs_after : the curves, candidate d = 0 first.
@@ -33,6 +27,7 @@ class Point(BaseModel):
 
     x: int
     y: int
+    windows: tuple[int, ...]
     judged_by: int
     before: int
     after: int
@@ -40,41 +35,32 @@ class Point(BaseModel):
     costs_after: list[float]
 
 
-def points(scene: Scene, reading: Reading) -> list[Point]:
-    """The curves of `PIXELS` with soft-min I, for the rule judged by each of the reading's windows."""
-    return [point(scene, reading, x, y, window) for x, y in PIXELS for window in reading.windows]
+def points(scene: Scene, readings: tuple[Reading, ...]) -> list[Point]:
+    """The pixel's curves in each reading, for the rule judged by each of its windows."""
+    return [
+        point(scene, reading, COLUMN, ROW, judge)
+        for reading in readings
+        for judge in range(1, len(reading.windows) + 1)
+    ]
 
 
-def point(scene: Scene, reading: Reading, x: int, y: int, judged_by: int) -> Point:
-    """The curve of one pixel; the rule fires where the `judged_by` x `judged_by` SAD is above 1200."""
-    s = sums(scene, reading, x, y)
-    before = [s[window] for window in reading.windows]
-    after = variants.compensated(before, s[judged_by], np.arange(reading.candidates), reading.label)
-    without, with_rule = (variants.cost(each, "soft_min_1", reading) for each in (before, after))
+def point(scene: Scene, reading: Reading, x: int, y: int, judge: int) -> Point:
+    """The curves of one pixel, counted from one, with soft-min I; the rule looks at criterion `judge`.
+
+    The pixel's windows must stay inside both images: nothing is replicated here.
+    """
+    off, on = (reading.config("soft_min_1", rule, judge) for rule in ("off", "top"))
+    before, after = (
+        float_model.costs(scene.left, scene.right, config, x - 1, y - 1, label=reading.label)
+        for config in (off, on)
+    )
     return Point(
         x=x,
         y=y,
-        judged_by=judged_by,
-        before=int(without.argmin()) + 1,
-        after=int(with_rule.argmin()) + 1,
-        costs_before=without.tolist(),
-        costs_after=with_rule.tolist(),
+        windows=reading.windows,
+        judged_by=reading.windows[judge - 1],
+        before=int(before.argmin()) + 1,
+        after=int(after.argmin()) + 1,
+        costs_before=before.tolist(),
+        costs_after=after.tolist(),
     )
-
-
-def sums(scene: Scene, reading: Reading, x: int, y: int) -> Mapping[int, NDArray[np.int32]]:
-    """The RGB SAD of every candidate, by window, around a pixel whose windows stay inside both images."""
-    radius = max(reading.windows) // 2
-    rows = slice(y - radius, y + radius + 1)
-    left_is_reference = reading.view == "left"
-    here, there = (scene.left, scene.right) if left_is_reference else (scene.right, scene.left)
-    found: dict[int, list[int]] = {window: [] for window in reading.windows}
-    for d in range(reading.candidates):
-        partner = x - d if left_is_reference else x + d
-        a, b = (
-            image[rows, c - radius : c + radius + 1].astype(np.int32)
-            for image, c in ((here, x), (there, partner))
-        )
-        for window, value in variants.sums(np.abs(a - b).sum(2, dtype=np.int32), reading.windows).items():
-            found[window].append(int(value[0, 0]))
-    return {window: np.array(values, np.int32) for window, values in found.items()}

@@ -176,19 +176,17 @@ def _legend() -> str:
 
 def _figure4(document: Document) -> str:
     parts = [
-        "<p>Teddy, right view, soft-min I, T = 5000. The paper has 62 before the rule and 16 after it, at"
-        " x = 254, y = -68. Where the rule fires, all inputs become 2T.</p>"
+        "<p>Teddy, right view, soft-min I, T = 5000, at x = 254, y = 68; pixels and candidates are counted from"
+        " one. The paper has 62 before the rule and 16 after it. Where the rule fires, all inputs become 2T.</p>"
     ]
-    for (x, y), group in groupby(document.figure4, key=lambda p: (p.x, p.y)):
-        text = f"x = {x}, y = {y}, counted from zero"
+    for windows, group in groupby(document.figure4, key=lambda p: p.windows):
+        text = f"windows {'/'.join(map(str, windows))}"
         source = figures.curves(list(group))
         parts.append(f'<h3>{text}</h3><img class="curve" src="{source}" alt="{text}">')
     return "\n".join(parts)
 
 
 def _figure5(document: Document, maps: Maps, reading: Reading) -> str:
-    if not document.figure5:
-        return f"<p>Reading {escape(reading.name)} has no 3x3 SAD, which the rule looks at.</p>"
     row = []
     for (name, cell), score in zip(figure5(reading).items(), document.figure5, strict=True):
         numbers = f"paper's RMSE {score.paper_rmse:.2f}, bad-1.0 {pages.figure(score.metrics['bad1'])} %"

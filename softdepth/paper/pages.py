@@ -149,8 +149,8 @@ def speed_text(speeds: Speeds) -> str:
     """What the speed table shows."""
     return (
         f"Nanoseconds of processor time a pixel, on one core of {speeds.processor}, all in one run; times"
-        f" within {100 * (TIE - 1):.0f} % count as equal. Clocks a pixel of the gateware, with as many lanes (up to"
-        f" {LANES}) as {speeds.multipliers} multipliers allow."
+        f" within {100 * (TIE - 1):.0f} % count as equal. Clocks a pixel of the gateware, with as many lanes"
+        f" (up to {LANES}) as {speeds.multipliers} multipliers allow."
     )
 
 
@@ -175,25 +175,21 @@ def _reading_rows(document: Document) -> list[list[str]]:
 
 def _rule_lines(document: Document) -> list[str]:
     said = []
-    for pixel, group in groupby(document.figure4, key=lambda p: (p.x, p.y)):
+    for windows, group in groupby(document.figure4, key=lambda p: p.windows):
         found = list(group)
         after = ", ".join(f"{p.after} judged by {p.judged_by}x{p.judged_by}" for p in found)
-        said.append(f"at {pixel}, {found[0].before} becomes {after}")
-    lines = [
+        said.append(f"with windows {'/'.join(map(str, windows))}, {found[0].before} becomes {after}")
+    _, without, *judged = document.figure5
+    on_map = " and ".join(
+        f"{s.paper_rmse:.2f} and {figure(s.metrics['bad1'])} % ({s.method})" for s in judged
+    )
+    return [
         f"**The compensating rule.** At Fig. 4's pixel the paper has {figure4.BEFORE} become {figure4.AFTER}."
-        f" Here, with indices from one, soft-min I and inputs replaced by 2T: {'; '.join(said)}."
-        " The paper says SAD and not which; its rows may count from one."
+        f" Here, counting pixels and candidates from one, with soft-min I and inputs replaced by 2T:"
+        f" {'; '.join(said)}. The paper says SAD and not which; the rule acts only if it looks at a large window.",
+        f"On the whole map (Teddy, soft-min I) the paper's RMSE and bad-1.0 go from {without.paper_rmse:.2f}"
+        f" and {figure(without.metrics['bad1'])} % to {on_map}.",
     ]
-    if document.figure5:
-        _, without, *judged = document.figure5
-        after = " and ".join(
-            f"{s.paper_rmse:.2f} and {figure(s.metrics['bad1'])} % ({s.method})" for s in judged
-        )
-        lines.append(
-            "On the whole map (Teddy, soft-min I) the paper's RMSE and bad-1.0 go from"
-            f" {without.paper_rmse:.2f} and {figure(without.metrics['bad1'])} % to {after}."
-        )
-    return lines
 
 
 def _fastest(speeds: Speeds) -> str:

@@ -50,8 +50,13 @@ class Reading:
     size: tuple[int, int] | None = None
     label: float = 5000.0
 
-    def config(self, operator: Operator = "mean", rule: Rule = "off", lanes: int = 16) -> Config:
-        """The core of this reading, with as many lanes up to `lanes` as its multipliers allow."""
+    def config(
+        self, operator: Operator = "mean", rule: Rule = "off", judge: int = 1, lanes: int = 16
+    ) -> Config:
+        """The core of this reading, with as many lanes up to `lanes` as its multipliers allow.
+
+        The compensating rule `rule` looks at criterion number `judge`, from one.
+        """
         cost = "sad" if self.method == "sad" else "fuzzy"
         base: dict[str, Any] = {
             "name": self.name,
@@ -60,7 +65,7 @@ class Reading:
             "cost": cost,
             "operator": operator,
             "criteria": [{"window": w} for w in self.windows],
-            "compensation": {"reading": rule},
+            "compensation": {"reading": rule, "criterion": 0 if rule == "off" else judge},
         }
         widest = 1
         for n in range(2, lanes + 1):

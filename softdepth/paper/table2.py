@@ -1,6 +1,6 @@
 """Table 2: published, float, fixed and gateware side by side, and what they sum up to."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from pydantic import BaseModel
@@ -15,6 +15,9 @@ GROUPS = ("SAD", "[11]", "FMCDM")
 """The methods, as the paper's table names and orders them."""
 
 
+Figure = float | None
+
+
 class Row(BaseModel):
     """A cell of Table 2, in the paper's RMSE (eq. 1: gray levels).
 
@@ -26,11 +29,11 @@ class Row(BaseModel):
     method: str
     operator: Operator | None
     reading: str
-    published: float | None
-    float: float | None
-    fixed: float | None
-    rtl: float | None
-    deviation: float | None
+    published: Figure
+    float: Figure
+    fixed: Figure
+    rtl: Figure
+    deviation: Figure
     rtl_mismatches: int | None = None
 
 
@@ -127,7 +130,7 @@ def sad_against_its_own_truth(maps: Maps) -> dict[str, float]:
 
 
 def summarise(
-    rows: Sequence[Row], plain: Sequence[Row], tried: dict[str, Sequence[Row]], own: dict[str, float]
+    rows: Sequence[Row], plain: Sequence[Row], tried: Mapping[str, Sequence[Row]], own: dict[str, float]
 ) -> Summary:
     """Sum up the table `rows`, the `one_view` rows, the FMCDM rows of every reading `tried`, and `own`:
     `sad_against_its_own_truth`."""

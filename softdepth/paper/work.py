@@ -4,7 +4,6 @@ import multiprocessing
 import os
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
-from dataclasses import replace
 
 from softdepth.config import OPERATORS
 from softdepth.errors import ToolError
@@ -38,14 +37,9 @@ def models(reading: Reading) -> list[Cell]:
 
 
 def rule_cells(reading: Reading) -> list[Cell]:
-    """Maps with the compensating rule: as the core has it, and judged by the largest window.
-
-    None for a reading without a 3x3 SAD, which the core's rule looks at.
-    """
-    if 3 not in reading.windows or reading.leaving == "excluded":
-        return []
-    core = Cell(RULE_SCENE, reading, RULE_OPERATOR, "float", "top")
-    return [core, replace(core, judged_by=max(reading.windows))]
+    """Maps with the compensating rule, judged by the smallest window and by the largest."""
+    judges = (1, len(reading.windows))
+    return [Cell(RULE_SCENE, reading, RULE_OPERATOR, "float", "top", judge) for judge in judges]
 
 
 def gateware(reading: Reading, scene_names: Sequence[str], operators: Sequence[str]) -> list[Cell]:

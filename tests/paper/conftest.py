@@ -34,7 +34,8 @@ def tiny() -> Iterator[None]:
     made = {name: scene(name) for name in SCENES}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "load", lambda name, size=None: made[name])
-        patch.setattr(figure4, "PIXELS", ((20, 17),))
+        patch.setattr(figure4, "COLUMN", 20)
+        patch.setattr(figure4, "ROW", 17)
         patch.setattr(speed, "ROWS", 12)
         patch.setattr(speed, "REPEATS", 1)
         yield

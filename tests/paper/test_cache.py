@@ -31,7 +31,7 @@ def test_a_map_comes_back(tmp_path):
         replace(CELL, operator="min"),
         replace(CELL, engine="fixed"),
         replace(CELL, rule="top"),
-        replace(CELL, rule="top", judged_by=7),
+        replace(CELL, rule="top", judge=3),
         replace(CELL, reading=replace(CELL.reading, windows=(3, 5, 9))),
         replace(CELL, reading=replace(CELL.reading, candidates=32)),
         replace(CELL, reading=replace(CELL.reading, leaving="excluded")),
@@ -39,7 +39,7 @@ def test_a_map_comes_back(tmp_path):
         replace(CELL, reading=replace(CELL.reading, label=4096.0)),
         replace(CELL, reading=replace(CELL.reading, blank=1)),
     ],
-    ids=lambda cell: f"{cell.operator}-{cell.engine}-{cell.rule}-{cell.reading.windows}-{cell.judged_by}",
+    ids=lambda cell: f"{cell.operator}-{cell.engine}-{cell.rule}-{cell.reading.windows}-{cell.judge}",
 )
 def test_another_question_is_another_key(tmp_path, other):
     store = MapCache(tmp_path)

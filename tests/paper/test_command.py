@@ -100,8 +100,8 @@ def test_the_page_loads_nothing(written):
     page.feed(text)
     assert not page.tags & {"script", "link", "iframe", "object", "embed"}
     assert all(address.startswith("data:image/png;base64,") for address in page.found)
-    # Table 3: two methods, three scenes, every operator's map and error; one pixel's curves; Fig. 5.
-    assert len(page.found) == 2 * 3 * 5 * 2 + 1 + 5
+    # Table 3: two methods, three scenes, every operator's map and error; two curves; Fig. 5.
+    assert len(page.found) == 2 * 3 * 5 * 2 + 2 + 5
     assert "@import" not in text
     assert "url(" not in text
     assert not re.search(r"https?://", text)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softdepth.golden.maps import DisparityMap
-from softdepth.paper import matchers, readings, variants
+from softdepth.paper import matchers, prototype, readings
 from softdepth.paper.cells import Cell, compute, metrics, rmse
 from softdepth.paper.margins import Margins
 from softdepth.paper.readings import Reading
@@ -56,7 +56,7 @@ def test_float_maps_follow_their_reading(name):
             if not sums or not inside:
                 continue
             columns = [np.array(c) for c in zip(*sums, strict=True)]
-            costs = columns[0] if operator is None else variants.cost(columns, operator, reading)
+            costs = columns[0] if operator is None else prototype.cost(columns, operator, reading.label)
             assert found.disparity[y, x] == int(costs.argmin()), (x, y)
 
 
@@ -70,25 +70,24 @@ def test_margins_come_off_again(reading):
     np.testing.assert_array_equal(cropped.disparity, columns[:, :, 0])
 
 
-def test_a_rule_judged_by_3x3_is_the_cores():
-    reading = replace(SMALL["nest-357"], candidates=40)
+def test_the_rule_looks_at_its_judge():
     # Two pictures of noise: any candidate may win, and the 3x3 sums lie around the rule's 1200.
     rng = np.random.default_rng(4)
     left, right = rng.integers(0, 135, (2, HEIGHT, WIDTH, 3), dtype=np.uint8)
     noise = Scene("noise", left, right, {}, "noise")
-    core = compute(Cell("noise", reading, "soft_min_1", "float", "top"), noise)
-    own = variants.disparity(left, right, reading, "soft_min_1", judged_by=3)
-    np.testing.assert_array_equal(core.disparity, own)
-    none = variants.disparity(left, right, reading, "soft_min_1")
-    wide = variants.disparity(left, right, reading, "soft_min_1", judged_by=7)
-    assert (own != none).any()
-    assert (wide != own).any()
-    assert (none[wide != none] >= 32).all()  # the rule only ever rejects far candidates
+    reading = replace(SMALL["nest-357"], candidates=40)
+    none, small, large = (
+        compute(Cell("noise", reading, "soft_min_1", "float", rule, judge), noise).disparity
+        for rule, judge in (("off", 1), ("top", 1), ("top", 3))
+    )
+    assert 0 < (small != none).sum() < (large != none).sum()
+    assert (none[large != none] >= 32).all()  # the rule rejects far candidates only
+    assert (large < 32).all()  # every 7x7 sum is above 1200
 
 
 def test_the_prototype_sums_each_channel_alone():
     reading = replace(readings.PROTOTYPE, candidates=8, windows=(3, 3, 3), view="left")
-    found = variants.disparity(STEPS.left, STEPS.right, reading, "min")
+    found = prototype.disparity(STEPS.left, STEPS.right, reading, "min")
     for y, x in ((5, 3), (20, 60), (HEIGHT - 1, 0)):
         rows, columns = (np.clip(range(n - 1, n + 2), 0, m - 1) for n, m in ((y, HEIGHT), (x, WIDTH)))
         criteria = np.empty((3, 8), int)
@@ -97,7 +96,7 @@ def test_the_prototype_sums_each_channel_alone():
             a = STEPS.left[np.ix_(rows, columns)].astype(int)
             b = STEPS.right[np.ix_(rows, partner)].astype(int)
             criteria[:, d] = np.abs(a - b).sum((0, 1))
-        assert found[y, x] == int(variants.cost(list(criteria), "min", reading).argmin())
+        assert found[y, x] == int(prototype.cost(list(criteria), "min", reading.label).argmin())
 
 
 def test_fixed_and_float_see_the_same_border():

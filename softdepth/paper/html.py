@@ -176,8 +176,9 @@ def _legend() -> str:
 
 def _figure4(document: Document) -> str:
     parts = [
-        "<p>Teddy, right view, soft-min I, T = 5000, at x = 254, y = 68; pixels and candidates are counted from"
-        " one. The paper has 62 before the rule and 16 after it. Where the rule fires, all inputs become 2T.</p>"
+        "<p>Teddy, right view, soft-min I, T = 5000, at x = 254, y = 68; pixels and candidates are counted"
+        " from one. The paper has 62 before the rule and 16 after it. Where the rule fires, all inputs become"
+        " 2T.</p>"
     ]
     for windows, group in groupby(document.figure4, key=lambda p: p.windows):
         text = f"windows {'/'.join(map(str, windows))}"

@@ -186,7 +186,7 @@ def _rule_lines(document: Document) -> list[str]:
     return [
         f"**The compensating rule.** At Fig. 4's pixel the paper has {figure4.BEFORE} become {figure4.AFTER}."
         f" Here, counting pixels and candidates from one, with soft-min I and inputs replaced by 2T:"
-        f" {'; '.join(said)}. The paper says SAD and not which; the rule acts only if it looks at a large window.",
+        f" {'; '.join(said)}. The paper says SAD and not which.",
         f"On the whole map (Teddy, soft-min I) the paper's RMSE and bad-1.0 go from {without.paper_rmse:.2f}"
         f" and {figure(without.metrics['bad1'])} % to {on_map}.",
     ]

@@ -11,11 +11,8 @@ from softdepth.paper.cells import Cell, Engine, rmse
 from softdepth.paper.readings import Reading
 from softdepth.paper.work import Maps
 
-GROUPS = ("SAD", "[11]", "FMCDM")
-"""The methods, as the paper's table names and orders them."""
-
-
 Figure = float | None
+"""A measured or printed figure, if there is one."""
 
 
 class Row(BaseModel):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from softdepth.golden.images import StereoPair
 from softdepth.golden.synthetic import generate
 from softdepth.golden.truth import Truth, View
 from softdepth.paper import figure4, scenes, speed
@@ -12,12 +13,14 @@ from softdepth.paper.published import SCENES
 from softdepth.paper.scenes import Scene
 
 WIDTH, HEIGHT = 110, 34
-KINDS = dict(zip(SCENES, ("steps", "slanted", "plane"), strict=True))
+KINDS: dict[str, str] = dict(zip(SCENES, ("steps", "slanted", "plane"), strict=True))
 
 
 def scene(name: str, size: tuple[int, int] | None = None) -> Scene:
     """A synthetic scene under a Middlebury name, of one size whatever the reading asks for."""
-    pairs = {v: generate(KINDS[name], width=WIDTH, height=HEIGHT, disparities=32, view=v) for v in VIEWS}
+    pairs: dict[View, StereoPair] = {
+        v: generate(KINDS[name], width=WIDTH, height=HEIGHT, disparities=32, view=v) for v in VIEWS
+    }
     truths: dict[View, Truth] = {}
     for view, pair in pairs.items():
         assert pair.truth is not None

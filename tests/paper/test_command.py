@@ -91,7 +91,9 @@ class _Addresses(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags.add(tag)
-        self.found += [value for name, value in attrs if name in ("src", "href", "srcset", "data", "action")]
+        self.found += [
+            str(value) for name, value in attrs if name in ("src", "href", "srcset", "data", "action")
+        ]
 
 
 def test_the_page_loads_nothing(written):

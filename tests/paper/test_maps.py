@@ -76,10 +76,9 @@ def test_the_rule_looks_at_its_judge():
     left, right = rng.integers(0, 135, (2, HEIGHT, WIDTH, 3), dtype=np.uint8)
     noise = Scene("noise", left, right, {}, "noise")
     reading = replace(SMALL["nest-357"], candidates=40)
-    none, small, large = (
-        compute(Cell("noise", reading, "soft_min_1", "float", rule, judge), noise).disparity
-        for rule, judge in (("off", 1), ("top", 1), ("top", 3))
-    )
+    cell = Cell("noise", reading, "soft_min_1", "float")
+    judged = (replace(cell, rule="top", judge=judge) for judge in (1, 3))
+    none, small, large = (compute(each, noise).disparity for each in (cell, *judged))
     assert 0 < (small != none).sum() < (large != none).sum()
     assert (none[large != none] >= 32).all()  # the rule rejects far candidates only
     assert (large < 32).all()  # every 7x7 sum is above 1200

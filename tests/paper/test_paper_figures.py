@@ -5,12 +5,13 @@ import os
 import numpy as np
 import pytest
 
-from softdepth.config import OPERATORS
+from softdepth.config import OPERATORS, Operator
 from softdepth.golden.datasets import DATA_VARIABLE
 from softdepth.paper import figure4, published, readings, scenes, work
 from softdepth.paper.cache import MapCache
-from softdepth.paper.cells import Cell, compute, rmse
+from softdepth.paper.cells import Cell, Engine, compute, rmse
 from softdepth.paper.published import SCENES
+from softdepth.paper.readings import Reading
 from softdepth.paper.table2 import mean_deviation, row
 
 pytestmark = [
@@ -22,7 +23,7 @@ pytestmark = [
 ]
 
 
-def score(scene, reading, operator, engine="float"):
+def score(scene: str, reading: Reading, operator: Operator | None, engine: Engine = "float") -> float:
     images = scenes.load(scene, reading.size)
     return rmse(compute(Cell(scene, reading, operator, engine), images), reading, images)
 
@@ -46,11 +47,9 @@ def test_mean_on_teddy(name, recorded):
 @pytest.mark.parametrize("name", list(readings.FMCDM))
 def test_all_14_cells(name):
     reading = readings.FMCDM[name]
-    cells = [Cell(scene, reading, operator, "float") for scene in SCENES for operator in OPERATORS]
-    maps = work.run(cells, MapCache(None), work.cores())
-    rows = [
-        row(maps, "FMCDM", c.scene, reading, c.operator, published.FMCDM[c.scene][c.operator]) for c in cells
-    ]
+    cells = [(scene, operator) for scene in SCENES for operator in OPERATORS]
+    maps = work.run([Cell(s, reading, o, "float") for s, o in cells], MapCache(None), work.cores())
+    rows = [row(maps, "FMCDM", s, reading, o, published.FMCDM[s][o]) for s, o in cells]
     assert mean_deviation(rows) <= 0.65
     assert mean_deviation(rows, everything=True) <= 1.0
 

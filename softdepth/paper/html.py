@@ -212,7 +212,7 @@ def _metrics(document: Document) -> str:
         before = score.scene
     parameters = "; ".join(f"{name}: {text}" for name, text in document.opencv.items())
     return (
-        "<p>Every map in its own view: all known pixels / non-occluded ones.</p>"
+        f"<p>{escape(pages.METRICS_TEXT)}</p>"
         + _grid(head, rows, numbers=5)
         + f"<p>{escape(parameters)}.</p>"
     )

@@ -10,6 +10,10 @@ from softdepth.paper.document import Document, Score
 from softdepth.paper.speed import LANES, TIE, Speeds
 from softdepth.paper.table2 import Row
 
+METRICS_TEXT = (
+    "Every map is scored in its own view: all known pixels / non-occluded ones. No result counts as wrong, so"
+    " the columns that OpenCV's matchers leave out, as many as there are candidates, count against them."
+)
 COLUMNS = ("published", "float", "fixed", "gateware", "deviation")
 
 
@@ -109,7 +113,7 @@ def markdown(document: Document, level: int = 2) -> str:
             _reading_rows(document),
         ),
         f"\n{mark} Standard metrics\n",
-        "Float maps, each scored in its own view: all known pixels / non-occluded ones.\n",
+        f"{METRICS_TEXT} Float maps; those in fixed point are in the JSON.\n",
         grid(
             ["scene", "method", "operator", "paper's RMSE", "bad-1.0 %", "bad-2.0 %", "MAE px", "RMS px"],
             ["---", "---", "---", *["---:"] * 5],

@@ -15,7 +15,7 @@ from softdepth.golden import fixed_model, float_model
 from softdepth.paper.readings import MULTIPLIERS, Reading
 from softdepth.paper.scenes import Scene
 
-ROWS, REPEATS = 48, 5
+ROWS, REPEATS = 32, 11
 """Rows of a scene that are timed, and how often; the operators take turns, the best time counts."""
 
 TIE = 1.05

@@ -91,7 +91,8 @@ def random_config(seed: int) -> Config:
         {
             "name": f"random-{seed}",
             "disparities": disparities,
-            "lanes": pick([n for n in range(1, disparities + 1) if disparities % n == 0]),
+            # Few lanes build fast; `test_lanes` has many.
+            "lanes": pick([n for n in range(1, 5) if disparities % n == 0]),
             "max_width": int(rng.integers(64, 200)),
             "max_height": 100,
             "reference": pick(["left", "right"]),

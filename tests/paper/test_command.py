@@ -3,6 +3,7 @@
 import json
 import re
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import pytest
 
@@ -156,15 +157,14 @@ def simulator(monkeypatch):
 
     class Simulator:
         flip = 0
-        runs = 0
 
         def __call__(self, config, pairs, *, progress=None):
-            Simulator.runs += 1
-            found = fixed_model.disparity(*pairs[0], config)
+            ((left, right),) = pairs
+            found = fixed_model.disparity(left, right, config)
             disparity = found.disparity.copy()
             height, width = disparity.shape
             disparity[height // 2, width // 2 : width // 2 + self.flip] ^= 1
-            return type("Frames", (), {"maps": [DisparityMap(disparity, found.code)]})
+            return SimpleNamespace(maps=[DisparityMap(disparity, found.code)])
 
     simulator = Simulator()
     monkeypatch.setattr(frames, "run_frames", simulator)

@@ -47,7 +47,7 @@ def test_mean_on_teddy(name, recorded):
 @pytest.mark.parametrize("name", list(readings.FMCDM))
 def test_all_14_cells(name):
     reading = readings.FMCDM[name]
-    cells = [(scene, operator) for scene in SCENES for operator in OPERATORS]
+    cells: list[tuple[str, Operator]] = [(scene, operator) for scene in SCENES for operator in OPERATORS]
     maps = work.run([Cell(s, reading, o, "float") for s, o in cells], MapCache(None), work.cores())
     rows = [row(maps, "FMCDM", s, reading, o, published.FMCDM[s][o]) for s, o in cells]
     assert mean_deviation(rows) <= 0.65

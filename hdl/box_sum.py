@@ -1,11 +1,11 @@
 """Horizontal box sum of a candidate's column costs."""
 
-from amaranth.hdl import Module, Signal
+from amaranth.hdl import Module
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.delay import Delay
-from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.pipeline import Pipeline, Word, travelling
 
 
 class BoxSum(wiring.Component):
@@ -38,10 +38,7 @@ class BoxSum(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        valid = [self.valid]
-        for k in range(self.latency):
-            valid.append(Signal(name=f"valid_{k + 1}"))
-            m.d.sync += valid[k + 1].eq(valid[k])
+        valid = travelling(m, self.valid, self.latency, "valid")
 
         sums: dict[int, Word] = {1: pipeline.input(self.i, self._maximum)}
 

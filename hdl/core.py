@@ -12,7 +12,7 @@ from softdepth.hdl.delay import Delay
 from softdepth.hdl.frame_guard import FrameGuard
 from softdepth.hdl.lane import Lane, column_layout
 from softdepth.hdl.line_buffer import LineBuffer
-from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.pipeline import Pipeline, Word, travelling
 from softdepth.hdl.right_columns import RightColumns, candidate
 from softdepth.hdl.sequencer import Sequencer, tags_layout
 from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
@@ -82,10 +82,7 @@ class StereoCore(wiring.Component):
         # Bits that say what happens are reset; what they speak of is not. Both start at clock 1.
         occurs: dict[str, list[Signal]] = {}
         for name, source in {"valid": sequencer.valid, "emit": sequencer.emit}.items():
-            occurs[name] = [source, source]
-            for time in range(2, self._result_time + 1):
-                occurs[name].append(Signal(name=f"{name}_{time}"))
-                m.d.sync += occurs[name][time].eq(occurs[name][time - 1])
+            occurs[name] = [source, *travelling(m, source, self._result_time - 1, name, since=1)]
         step = control.input(sequencer.step, config.steps - 1, time=1)
         room = control.input(sequencer.room, config.disparities - 1, time=1)
 

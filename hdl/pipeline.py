@@ -136,6 +136,18 @@ class Pipeline:
         return self.tree(self.add, words)
 
 
+def travelling(m: Module, bit: Signal, clocks: int, name: str, *, since: int = 0) -> list[Signal]:
+    """``bit`` now and after each of ``clocks`` clocks, reset to 0: it tells which data count.
+
+    The registers are called ``name_T``, T the clock counted from ``since``.
+    """
+    bits = [bit]
+    for time in range(since + 1, since + clocks + 1):
+        bits.append(Signal(name=f"{name}_{time}"))
+        m.d.sync += bits[-1].eq(bits[-2])
+    return bits
+
+
 def tree_latency(words: int) -> int:
     """Clocks that `Pipeline.tree` takes for so many words."""
     return (words - 1).bit_length()

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 
-from amaranth.hdl import Module, Mux, Signal, Value
+from amaranth.hdl import Module, Mux, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS, Config, Sad
 from softdepth.hdl.box_sum import BoxSum, box_latency
 from softdepth.hdl.delay import Delay
-from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
+from softdepth.hdl.pipeline import Pipeline, Word, travelling, tree_latency
 
 CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
 
@@ -54,10 +54,7 @@ class SadCriteria(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        valid = [self.valid]
-        for k in range(self.latency):
-            valid.append(Signal(name=f"valid_{k + 1}"))
-            m.d.sync += valid[k + 1].eq(valid[k])
+        valid = travelling(m, self.valid, self.latency, "valid")
 
         sums: dict[int, Word] = {}
         for window, column in self._column_costs(pipeline).items():

@@ -1,0 +1,107 @@
+"""Line store: a line of pixel pairs waits for its checksum, then enters the core."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.lib import stream, wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import Config
+from softdepth.hdl.signatures import PIXEL_BITS, PixelPair
+from softdepth.protocol import PAIR_BYTES
+
+
+class LineStore(wiring.Component):
+    """Holds one line of the link's bytes in block RAM; gives it to the core, markers added, when told.
+
+    The next line may arrive while this one is read, as long as it does not overtake the reader.
+
+    Members
+    -------
+    width, height : of the frame, in pixels; steady while there is one.
+    begin : a frame begins: the next line is its first.
+    valid, data : a byte of a line: `PAIR_BYTES` a pair, red, green, blue, left first.
+    close : the line has ended, and the next begins.
+    overrun : the line has overtaken the reader, and is spoilt; until ``close``.
+    feed : the line in store is sound: give it to the core.
+    busy : it is on its way there.
+    complete : the frame's last line has been fed.
+    o : stream of `PixelPair`.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._depth = config.max_width
+        super().__init__(
+            {
+                "width": In(range(config.max_width + 1)),
+                "height": In(range(config.max_height + 1)),
+                "begin": In(1),
+                "close": In(1),
+                "valid": In(1),
+                "data": In(8),
+                "overrun": Out(1),
+                "feed": In(1),
+                "busy": Out(1),
+                "complete": Out(1),
+                "o": Out(stream.Signature(PixelPair)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.memory = memory = Memory(shape=2 * PIXEL_BITS, depth=self._depth, init=[])
+        write, read = memory.write_port(), memory.read_port()
+        x, y = Signal(range(self._depth + 1)), Signal.like(self.height)
+        self._write(m, write, x)
+
+        last = x + 1 == self.width
+        m.d.comb += [
+            self.complete.eq(y == self.height),
+            read.addr.eq(x),
+            Cat(self.o.payload.left, self.o.payload.right).eq(read.data),
+            self.o.payload.sof.eq((x == 0) & (y == 0)),
+            self.o.payload.eol.eq(last),
+            self.o.payload.eof.eq(last & (y + 1 == self.height)),
+        ]
+        # Two clocks a pair, one to read it: the serial port is slower by far.
+        with m.FSM():
+            with m.State("IDLE"):
+                with m.If(self.feed):
+                    m.next = "READ"
+            with m.State("READ"):
+                m.d.comb += self.busy.eq(1)
+                m.next = "OFFER"
+            with m.State("OFFER"):
+                m.d.comb += [self.busy.eq(1), self.o.valid.eq(1), read.en.eq(0)]
+                with m.If(self.o.ready):
+                    m.d.sync += x.eq(Mux(last, 0, x + 1))
+                    m.next = "READ"
+                    with m.If(last):
+                        m.d.sync += y.eq(y + 1)
+                        m.next = "IDLE"
+        with m.If(self.begin):
+            m.d.sync += y.eq(0)
+        return m
+
+    def _write(self, m: Module, write: object, x: Signal) -> None:
+        """Bytes gather to a pair, which is written with its last byte."""
+        place = Signal(range(PAIR_BYTES))
+        address = Signal(range(self._depth + 1))
+        gathered = Signal(2 * PIXEL_BITS - 8)
+        whole = place == PAIR_BYTES - 1
+        overtakes = self.busy & (address >= x)
+        m.d.comb += [
+            write.addr.eq(address),
+            write.data.eq(Cat(gathered, self.data)),
+            write.en.eq(self.valid & whole & ~overtakes & (address != self._depth)),
+        ]
+        with m.If(self.valid):
+            m.d.sync += [
+                gathered.eq(Cat(gathered[8:], self.data)),
+                place.eq(Mux(whole, 0, place + 1)),
+            ]
+            with m.If(whole):
+                m.d.sync += self.overrun.eq(self.overrun | overtakes)
+                with m.If(address != self._depth):
+                    m.d.sync += address.eq(address + 1)
+        with m.If(self.close):
+            m.d.sync += [place.eq(0), address.eq(0), self.overrun.eq(0)]

@@ -1,0 +1,98 @@
+"""Result store: lines of results wait until the host has them for certain."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.lib import stream, wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+from softdepth.config import Config
+from softdepth.hdl.signatures import result_layout
+from softdepth.protocol import WINDOW, result_bytes
+
+SLOTS = WINDOW + 1
+"""One line for each reply that may have to be sent again, and one that the core fills."""
+
+
+class ResultStore(wiring.Component):
+    """A ring of `SLOTS` lines in block RAM. The core fills it, and waits where it is full.
+
+    Members
+    -------
+    i : stream of the core's results.
+    width : of the frame, in pixels.
+    ready : the oldest line that was not yet claimed is complete; it lies in ``slot``.
+    slot : name of that line, for `address` below.
+    claim : it goes into a reply. Claimed lines stay.
+    release : the oldest claimed line is no longer needed.
+    read_slot, index, data : byte ``index`` of the line in ``read_slot``, a clock later.
+    fault : the core gave a frame that is not of this width, or marked as damaged.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._depth = config.max_width
+        super().__init__(
+            {
+                "i": In(stream.Signature(result_layout(config))),
+                "width": In(range(config.max_width + 1)),
+                "ready": Out(1),
+                "slot": Out(range(SLOTS)),
+                "claim": In(1),
+                "release": In(1),
+                "read_slot": In(range(SLOTS)),
+                "index": In(16),
+                "data": Out(8),
+                "fault": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        layout = result_layout(self._config)
+        word = layout["disparity"].width + layout["code"].width
+        m.submodules.memory = memory = Memory(shape=word, depth=SLOTS * self._depth, init=[])
+        write, read = memory.write_port(), memory.read_port()
+        filled = Signal(range(SLOTS))  # slot that is being filled
+        complete = Signal(range(SLOTS + 1))
+        free = Signal(range(SLOTS + 1), init=SLOTS)
+        x = Signal(range(self._depth))
+
+        result = self.i.payload
+        taken = self.i.valid & self.i.ready
+        last = x + 1 == self.width
+        m.d.comb += [
+            self.i.ready.eq(free != 0),
+            write.en.eq(taken),
+            write.addr.eq(self._base(filled) + x),
+            write.data.eq(Cat(result.disparity, result.code)),
+            self.ready.eq(complete != 0),
+        ]
+        line_done = taken & last
+        with m.If(taken):
+            m.d.sync += [
+                x.eq(Mux(last, 0, x + 1)),
+                self.fault.eq(self.fault | (result.eol != last) | (result.sof & (x != 0)) | result.damaged),
+            ]
+        with m.If(line_done):
+            m.d.sync += filled.eq(self._after(filled))
+        with m.If(self.claim):
+            m.d.sync += self.slot.eq(self._after(self.slot))
+        m.d.sync += [
+            complete.eq(complete + line_done - self.claim),
+            free.eq(free - line_done + self.release),
+        ]
+
+        bytes_ = result_bytes(self._config)
+        place = self.index if bytes_ == 1 else self.index[(bytes_ - 1).bit_length() :]
+        m.d.comb += [
+            read.addr.eq(self._base(self.read_slot) + place),
+            self.data.eq(read.data if bytes_ == 1 else read.data.word_select(self.index[0], 8)),
+        ]
+        return m
+
+    def _base(self, slot: Signal) -> Signal:
+        return sum(Mux(slot == k, k * self._depth, 0) for k in range(1, SLOTS))  # type: ignore[return-value]
+
+    @staticmethod
+    def _after(slot: Signal) -> object:
+        return Mux(slot == SLOTS - 1, 0, slot + 1)

@@ -1,0 +1,1 @@
+"""Packets over a serial line: UART, framing and checksum."""

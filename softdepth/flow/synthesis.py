@@ -1,0 +1,84 @@
+"""Amaranth gateware into a netlist of a part's cells, by yosys."""
+
+import gc
+import json
+from collections import Counter
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from amaranth.back import rtlil
+from amaranth.lib.wiring import Component
+
+from softdepth.boards import Family
+from softdepth.flow.share import share
+from softdepth.flow.tools import find_tool
+
+TOP = "top"
+"""The name of every synthesised design."""
+
+Netlist = dict[str, Any]
+"""A design as yosys writes it in JSON."""
+
+NetlistPass = Callable[[Netlist], Netlist]
+
+PASSES: dict[Family, tuple[NetlistPass, ...]] = {"ecp5": (), "ice40": (), "gowin": ()}
+"""What is done to each netlist between yosys and nextpnr, in this order."""
+
+COMMANDS: dict[Family, str] = {
+    "ecp5": f"synth_ecp5 -top {TOP}",
+    "ice40": f"synth_ice40 -top {TOP} -dsp",
+    "gowin": f"synth_gowin -top {TOP} -family gw2a",
+}
+
+# Lanes were kept apart so that each was mapped once; from here on the design is one module.
+_JOIN = "setattr -mod -unset keep_hierarchy; flatten; delete t:$scopeinfo; opt_merge; opt_clean"
+
+
+def to_rtlil(design: Component) -> str:
+    """RTLIL of a component, with equal modules once."""
+    enabled = gc.isenabled()
+    gc.disable()  # elaboration makes millions of objects that all live to its end
+    try:
+        text = rtlil.convert(design, name=TOP, emit_src=False)
+    finally:
+        if enabled:
+            gc.enable()
+    return share(text)
+
+
+def synthesise(
+    design: Component | str,
+    family: Family,
+    folder: Path,
+    *,
+    options: Sequence[str] = (),
+    passes: Sequence[NetlistPass] | None = None,
+) -> Netlist:
+    """Synthesise a design and return its netlist, which is also written to ``netlist.json``.
+
+    Parameters
+    ----------
+    design : a component, or RTLIL with a top module called `TOP`.
+    folder : gets the files of the run.
+    options : for yosys' synthesis command, e.g. ``-nobram``.
+    passes : done to the netlist; by default those that `PASSES` lists for the family.
+
+    Raises `ToolError` where yosys is missing or fails.
+    """
+    text = design if isinstance(design, str) else to_rtlil(design)
+    (folder / "design.il").write_text(text)
+    command = " ".join((COMMANDS[family], *options))
+    script = f"read_rtlil design.il; {command}; {_JOIN}; write_json mapped.json"
+    # The packaged yosys may lose what it prints, but not what it logs.
+    find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder)
+    netlist = json.loads((folder / "mapped.json").read_text())
+    for each in PASSES[family] if passes is None else passes:
+        netlist = each(netlist)
+    (folder / "netlist.json").write_text(json.dumps(netlist))
+    return netlist
+
+
+def cells(netlist: Netlist) -> Counter[str]:
+    """How many cells of each type the design has."""
+    return Counter(cell["type"] for cell in netlist["modules"][TOP]["cells"].values())

@@ -56,32 +56,42 @@ def cache_folder() -> Path:
     return Path(os.environ.get("SOFTDEPTH_CACHE") or platformdirs.user_cache_dir("softdepth")).absolute()
 
 
-def build(verilog: str, *, waves: bool = False) -> Build:
-    """Build a design whose top module is `TOP` with the core's ports, or take it from the cache.
+def build(
+    verilog: str,
+    *,
+    waves: bool = False,
+    inputs: Sequence[str] = INPUTS,
+    outputs: Sequence[str] = OUTPUTS,
+) -> Build:
+    """Build a design whose top module is `TOP`, or take it from the cache.
 
-    With `waves` the program can record every signal, and runs slower. Builds at the same time are
-    safe: the second waits for the first. Raises `ToolError` for a missing tool or a failed build.
+    `inputs` and `outputs` are the ports that a bench drives and reads: by default the core's. With
+    `waves` the program can record every signal, and runs slower. Builds at the same time are safe: the
+    second waits for the first. Raises `ToolError` for a missing tool or a failed build.
     """
     start = time.monotonic()
     tools = find_toolchain()
     flags = (*VERILATOR_FLAGS, *(("--trace",) if waves else ()))
-    settings = (*flags, *MAKE_FLAGS, _visible_ports(), *_versions(tools))
+    ports = _visible_ports(inputs, outputs)
+    settings = (*flags, *MAKE_FLAGS, ports, *_versions(tools))
     runtime = cache_folder() / "runtime" / _digest(settings)
     folder = cache_folder() / "sim" / _digest((verilog, *settings))
     with _locked(folder):
         cached = (folder / TOP).exists()
         if not cached:
-            _build(verilog, flags, tools, folder, runtime)
+            _build(verilog, ports, flags, tools, folder, runtime)
     return Build(folder, cached, time.monotonic() - start)
 
 
-def _build(verilog: str, flags: Sequence[str], tools: Toolchain, folder: Path, runtime: Path) -> None:
+def _build(
+    verilog: str, ports: str, flags: Sequence[str], tools: Toolchain, folder: Path, runtime: Path
+) -> None:
     log_path = folder.with_suffix(".log")
     # make refuses paths with spaces, which a user's cache folder may have.
     with tempfile.TemporaryDirectory(prefix="softdepth-") as name, log_path.open("w") as log:
         work = Path(name)
         (work / "top.v").write_text(verilog)
-        (work / "ports.vlt").write_text(_visible_ports())
+        (work / "ports.vlt").write_text(ports)
         libraries = cocotb_tools.config.libs_dir
         main = cocotb_tools.config.share_dir / "lib" / "verilator" / "verilator.cpp"
         link = f"-Wl,-rpath,{libraries} -L{libraries} -lcocotbvpi_verilator"
@@ -114,10 +124,10 @@ def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: Tex
         raise ToolError(f"building the simulation failed: {reason}", f"see {log.name}")
 
 
-def _visible_ports() -> str:
+def _visible_ports(inputs: Sequence[str], outputs: Sequence[str]) -> str:
     """A Verilator control file that shows cocotb the ports and nothing else."""
-    lines = [f'public_flat_rw -module "{TOP}" -var "{port}"' for port in INPUTS]
-    lines += [f'public_flat_rd -module "{TOP}" -var "{port}"' for port in OUTPUTS]
+    lines = [f'public_flat_rw -module "{TOP}" -var "{port}"' for port in inputs]
+    lines += [f'public_flat_rd -module "{TOP}" -var "{port}"' for port in outputs]
     return "\n".join(["`verilator_config", *lines, ""])
 
 

@@ -102,6 +102,11 @@ class Counters(NamedTuple):
     early_starts: int
     missing_starts: int
 
+    @property
+    def core(self) -> tuple[int, ...]:
+        """The core's own counters, in their order."""
+        return self[4:]
+
 
 COUNTERS = struct.Struct("<8H")
 

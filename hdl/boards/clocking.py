@@ -3,7 +3,7 @@
 from amaranth.hdl import ClockDomain, ClockSignal, Module, ResetSignal, Signal
 from amaranth.lib import wiring
 from amaranth.lib.cdc import ResetSynchronizer
-from amaranth.lib.wiring import In, Out
+from amaranth.lib.wiring import In
 
 from softdepth.boards import Board
 from softdepth.hdl.boards.pll import pll

@@ -64,9 +64,8 @@ class LineStore(wiring.Component):
         ]
         # Two clocks a pair, one to read it: the serial port is slower by far.
         with m.FSM():
-            with m.State("IDLE"):
-                with m.If(self.feed):
-                    m.next = "READ"
+            with m.State("IDLE"), m.If(self.feed):
+                m.next = "READ"
             with m.State("READ"):
                 m.d.comb += self.busy.eq(1)
                 m.next = "OFFER"

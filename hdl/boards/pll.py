@@ -67,7 +67,7 @@ def gowin_divisors(clock_hz: int, core_hz: int) -> Divisors:
 
 
 def pll(board: Board, oscillator: Signal, clock: Signal, locked: Signal) -> Instance:
-    """The PLL of the board's part: makes `clock` of ``board.core_hz`` from `oscillator`, says when it is good.
+    """The PLL of the board's part: `oscillator` becomes `clock`, of ``board.core_hz``, good when `locked`.
 
     Raises `ConfigError` where the part cannot make that clock.
     """

@@ -9,8 +9,10 @@ from softdepth.config import Config
 from softdepth.hdl.signatures import result_layout
 from softdepth.protocol import WINDOW, result_bytes
 
-SLOTS = WINDOW + 1
-"""One line for each reply that may have to be sent again, and one that the core fills."""
+SLOTS = WINDOW + 2
+"""One line for each reply that may have to be sent again, one that is ready, and one that the core fills.
+
+With fewer the core would wait in the middle of a line for a reply to be confirmed by the next line."""
 
 
 class ResultStore(wiring.Component):

@@ -20,7 +20,7 @@ MAX_RATE_ERROR = 0.015
 
 
 def line_divisor(board: Board) -> int:
-    """Clocks per bit of the board's serial line; raises `ConfigError` where the clock cannot make its rate."""
+    """Clocks per bit of the serial line; raises `ConfigError` where the clock cannot make its rate."""
     divisor = round(board.core_hz / board.baud)
     if divisor < MIN_DIVISOR or abs(board.core_hz / divisor / board.baud - 1) > MAX_RATE_ERROR:
         raise ConfigError(

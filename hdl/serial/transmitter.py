@@ -31,16 +31,15 @@ class UartTransmitter(wiring.Component):
         timer = Signal(range(self._divisor))
         m.d.comb += self.i.ready.eq(left == 0)
         m.d.sync += self.tx.eq(shift[0])
-        with m.If(left == 0):
-            with m.If(self.i.valid):
-                m.d.sync += [
-                    shift.eq(Cat(Const(0, 1), self.i.payload, Const(1, 1))),
-                    left.eq(BYTE_BITS + 2),
-                    timer.eq(self._divisor - 1),
-                ]
+        with m.If(self.i.valid & self.i.ready):
+            m.d.sync += [
+                shift.eq(Cat(Const(0, 1), self.i.payload, Const(1, 1))),
+                left.eq(BYTE_BITS + 2),
+                timer.eq(self._divisor - 1),
+            ]
         with m.Elif(timer != 0):
             m.d.sync += timer.eq(timer - 1)
-        with m.Else():
+        with m.Elif(left != 0):
             m.d.sync += [
                 shift.eq(Cat(shift[1:], Const(1, 1))),
                 left.eq(left - 1),

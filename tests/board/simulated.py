@@ -1,0 +1,97 @@
+"""A simulated board at the end of a pseudo-terminal, for a host to talk to."""
+
+import contextlib
+import json
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from cocotb_tools.runner import get_runner
+
+from softdepth.boards import BOARDS
+from softdepth.config import Config
+from softdepth.hdl.boards import BoardTop
+from softdepth.hdl.serial.receiver import MIN_DIVISOR
+from softdepth.hdl.verilog import to_verilog
+from softdepth.sim.build import TOP, build
+from tests.board.bridge import PLAN_VARIABLE
+
+DIVISOR = MIN_DIVISOR
+"""Clocks per bit: as few as the gateware takes."""
+
+BOARD = replace(BOARDS["ulx3s-85f"], baud=BOARDS["ulx3s-85f"].core_hz // DIVISOR)
+START_SECONDS = 60
+
+
+@dataclass
+class Board:
+    """A board in the simulator. `path` is its serial port; `record` is there when it has been stopped."""
+
+    path: str = ""
+    record: dict[str, Any] = field(default_factory=dict)
+
+
+@contextlib.contextmanager
+def plugged_in(
+    config: Config,
+    folder: Path,
+    to_board: Mapping[str, Any] | None = None,
+    to_host: Mapping[str, Any] | None = None,
+    unplug: int | None = None,
+) -> Iterator[Board]:
+    """A board with a core of `config`; faults of each direction as in `tests.board.bridge.Wire`.
+
+    With `unplug` the port goes away when so many bytes have come from the host.
+    """
+    program = build(
+        to_verilog(BoardTop(BOARD, config, "simulated", simulated=True), name=TOP),
+        inputs=("clk", "rx", "button"),
+        outputs=("tx", "led"),
+    )
+    files = {name: str(folder / name) for name in ("ready", "stop", "record")}
+    plan = {
+        **files,
+        "divisor": DIVISOR,
+        "to_board": dict(to_board or {}),
+        "to_host": dict(to_host or {}),
+        "unplug": unplug,
+    }
+    (folder / "plan.json").write_text(json.dumps(plan))
+    simulator = threading.Thread(target=_simulate, args=(program.folder, folder), daemon=True)
+    simulator.start()
+    board = Board()
+    try:
+        board.path = _wait(Path(files["ready"]), simulator, folder)
+        yield board
+    finally:
+        Path(files["stop"]).touch()
+        simulator.join(START_SECONDS)
+    assert Path(files["record"]).exists(), (folder / "log").read_text()
+    board.record = json.loads(Path(files["record"]).read_text())
+
+
+def _simulate(program: Path, folder: Path) -> None:
+    runner = get_runner("verilator")
+    runner.log.disabled = True
+    with contextlib.suppress(RuntimeError, SystemExit):  # the record is missing then
+        runner.test(
+            test_module="tests.board.bridge",
+            hdl_toplevel=TOP,
+            hdl_toplevel_lang="verilog",
+            build_dir=program,
+            test_dir=folder,
+            results_xml=str(folder / "results.xml"),
+            log_file=folder / "log",
+            extra_env={PLAN_VARIABLE: str(folder / "plan.json")},
+        )
+
+
+def _wait(path: Path, simulator: threading.Thread, folder: Path) -> str:
+    deadline = time.monotonic() + START_SECONDS
+    while not path.exists():
+        assert simulator.is_alive() and time.monotonic() < deadline, (folder / "log").read_text()
+        time.sleep(0.02)
+    return path.read_text()

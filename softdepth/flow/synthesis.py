@@ -11,6 +11,7 @@ from amaranth.back import rtlil
 from amaranth.lib.wiring import Component
 
 from softdepth.boards import Family
+from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
 
@@ -20,14 +21,15 @@ TOP = "top"
 Netlist = dict[str, Any]
 """A design as yosys writes it in JSON."""
 
-NetlistPass = Callable[[Netlist], Netlist]
+NetlistPass = Callable[[Netlist], int]
+"""Changes a netlist in place and returns how many cells went."""
 
-PASSES: dict[Family, tuple[NetlistPass, ...]] = {"ecp5": (), "ice40": (), "gowin": ()}
+PASSES: dict[Family, tuple[NetlistPass, ...]] = {"ecp5": (fuse_carries,), "ice40": (), "gowin": ()}
 """What is done to each netlist between yosys and nextpnr, in this order."""
 
 COMMANDS: dict[Family, str] = {
     "ecp5": f"synth_ecp5 -top {TOP}",
-    "ice40": f"synth_ice40 -top {TOP} -dsp",
+    "ice40": f"synth_ice40 -top {TOP}",
     "gowin": f"synth_gowin -top {TOP} -family gw2a",
 }
 
@@ -74,7 +76,7 @@ def synthesise(
     find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder)
     netlist = json.loads((folder / "mapped.json").read_text())
     for each in PASSES[family] if passes is None else passes:
-        netlist = each(netlist)
+        each(netlist)
     (folder / "netlist.json").write_text(json.dumps(netlist))
     return netlist
 

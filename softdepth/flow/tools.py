@@ -72,11 +72,11 @@ class Tool:
             kept = cache_folder() / "flow" / f"{self.name}.log"
             kept.parent.mkdir(parents=True, exist_ok=True)
             kept.write_text(done.stdout)
-            raise ToolFailure(self.name, done.stdout, kept)
+            raise ToolRunError(self.name, done.stdout, kept)
         return done.stdout
 
 
-class ToolFailure(ToolError):
+class ToolRunError(ToolError):
     """A program that ended with an error; ``log`` is all that it said."""
 
     def __init__(self, name: str, log: str, kept: Path) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from softdepth.commands import bench, compare, export, info, listing, paper, run
+from softdepth.commands import bench, board, compare, export, info, listing, paper, run
 from softdepth.errors import SoftdepthError
 
 EXIT_MISMATCH = run.EXIT_MISMATCH
@@ -26,6 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command("run")(run.run)
+app.command("board")(board.board)
 app.command("compare")(compare.compare)
 app.command("export")(export.export)
 app.command("info")(info.info)

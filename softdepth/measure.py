@@ -9,14 +9,17 @@ from softdepth.config import Config
 from softdepth.errors import InputError
 
 if TYPE_CHECKING:
+    from softdepth.board.device import Device
     from softdepth.golden.images import StereoPair
     from softdepth.golden.maps import DisparityMap
     from softdepth.sim.compare import Mismatch
 
-Engine = Literal["rtl", "fixed", "float", "sad"]
-"""``sad`` is the baseline: plain 3x3 SAD with the same candidates and view, in fixed point."""
+Engine = Literal["board", "rtl", "fixed", "float", "sad"]
+"""``board`` and ``rtl`` are the gateware, in an FPGA and simulated. ``sad`` is the baseline: plain 3x3 SAD
+with the same candidates and view, in fixed point."""
 
 MEASURED: dict[str, tuple[Engine, ...]] = {
+    "board": ("board", "fixed", "float", "sad"),
     "rtl": ("rtl", "fixed", "float", "sad"),
     "fixed": ("fixed", "float", "sad"),
     "float": ("float", "sad"),
@@ -24,6 +27,7 @@ MEASURED: dict[str, tuple[Engine, ...]] = {
 """What a run with each ``--engine`` measures: itself, and what it is worth comparing with."""
 
 _TITLES: dict[Engine, str] = {
+    "board": "gateware, on the board",
     "rtl": "gateware, simulated by Verilator",
     "fixed": "fixed-point model",
     "float": "float model",
@@ -39,8 +43,10 @@ class Measurement:
     -------
     engine : the engine whose map is the result.
     maps : a disparity map for each measured engine.
-    seconds : wall time of each; for ``rtl`` the simulation alone, without building the simulator.
+    seconds : wall time of each; for ``rtl`` the simulation alone, without building the simulator; for
+        ``board`` the frame's way there and back.
     cycles_per_pixel, pixels_per_second : of the simulated gateware, or None.
+    link : packets and what befell them on the way to a board, or None.
     """
 
     engine: Engine
@@ -48,6 +54,7 @@ class Measurement:
     seconds: dict[Engine, float] = field(default_factory=dict)
     cycles_per_pixel: float | None = None
     pixels_per_second: float | None = None
+    link: dict[str, int] | None = None
 
     @property
     def result(self) -> "DisparityMap":
@@ -56,11 +63,12 @@ class Measurement:
 
     def mismatches(self) -> "list[Mismatch] | None":
         """Pixels in which the gateware departs from the fixed model; None if it was not measured."""
-        if "rtl" not in self.maps:
+        gateware = self.maps.get("board") or self.maps.get("rtl")
+        if gateware is None:
             return None
         from softdepth.sim.compare import mismatches
 
-        return mismatches([self.maps["fixed"]], [self.maps["rtl"]])
+        return mismatches([self.maps["fixed"]], [gateware])
 
 
 def check_fits(pair: "StereoPair", config: Config) -> None:
@@ -86,14 +94,19 @@ def baseline(config: Config) -> Config:
     return Config.preset("sad").override([f"{key}={value}" for key, value in same.items()])
 
 
-def measure(pair: "StereoPair", config: Config, engine: Engine) -> Measurement:
+def measure(
+    pair: "StereoPair", config: Config, engine: Engine, device: "Device | None" = None
+) -> Measurement:
     """Run `engine` and the engines it is compared with, showing progress.
 
-    The gateware goes first: a missing simulator ends the run before the models take their time.
+    The gateware goes first: a missing simulator ends the run before the models take their time. `device` is
+    what the engine ``board`` runs on.
     """
     measurement = Measurement(engine)
     for each in MEASURED[engine]:
-        if each == "rtl":
+        if each == "board" and device is not None:
+            _run_board(pair, device, measurement)
+        elif each == "rtl":
             _simulate(pair, config, measurement)
         else:
             _model(pair, config, each, measurement)
@@ -111,6 +124,14 @@ def _simulate(pair: "StereoPair", config: Config, measurement: Measurement) -> N
     measurement.seconds["rtl"] = frames.stream.seconds_sim
     measurement.cycles_per_pixel = frames.cycles_per_pixel
     measurement.pixels_per_second = frames.pixels_per_second
+
+
+def _run_board(pair: "StereoPair", device: "Device", measurement: Measurement) -> None:
+    with screen.progress(_TITLES["board"], pair.width * pair.height) as advance:
+        start = time.perf_counter()
+        measurement.maps["board"] = device.disparity(pair.left, pair.right, progress=advance)
+        measurement.seconds["board"] = time.perf_counter() - start
+    measurement.link = device.link_counters()
 
 
 def _model(pair: "StereoPair", config: Config, engine: Engine, measurement: Measurement) -> None:

@@ -59,6 +59,7 @@ class Report(BaseModel):
     rtl_mismatches: int | None
     cycles_per_pixel: float | None
     sim_pixels_per_second: float | None
+    link: dict[str, int] | None
     seconds: dict[Engine, float | None]
     metrics: dict[Engine, Accuracy]
     config: dict[str, Any]
@@ -82,6 +83,7 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
         rtl_mismatches=None if mismatches is None else len(mismatches),
         cycles_per_pixel=measurement.cycles_per_pixel,
         sim_pixels_per_second=measurement.pixels_per_second,
+        link=measurement.link,
         seconds={engine: measurement.seconds.get(engine) for engine in ENGINES},
         metrics=metrics,
         config=config.model_dump(mode="json"),
@@ -124,12 +126,26 @@ def show(report: Report) -> None:
     if report.rtl_mismatches is None:
         return
     print(f"gateware against fixed model: {report.rtl_mismatches} mismatches in {report.pixels} pixels")
+    if report.link is not None:
+        print(_link(report.link))
+        return
     print(f"{report.cycles_per_pixel:.3f} clock cycles per pixel")
     print(f"{report.sim_pixels_per_second:,.0f} simulated pixels per second")
 
 
+def _link(counters: dict[str, int]) -> str:
+    """What happened on the serial line, in a line."""
+    broken = counters["broken"] + counters["board_broken"]
+    return (
+        f"serial link: {counters['sent']} packets sent, {broken} arrived broken,"
+        f" {counters['repeated']} sent again, {counters['timeouts']} answers missing"
+    )
+
+
 def _table(report: Report) -> Table:
-    table = Table("", "gateware", "fixed", "float", "plain SAD", box=None)
+    gateware: Engine = "board" if report.engine == "board" else "rtl"
+    engines: tuple[Engine, ...] = (gateware, "fixed", "float", "sad")
+    table = Table("", "board" if gateware == "board" else "gateware", "fixed", "float", "plain SAD", box=None)
     for column in table.columns[1:]:
         column.justify = "right"
     for label, key, unit in (
@@ -139,9 +155,9 @@ def _table(report: Report) -> Table:
         ("RMS error", "rmse", " px"),
         ("paper's RMSE, gray levels", "paper_rmse", ""),
     ):
-        scores = [getattr(report.metrics[engine], key) for engine in ENGINES]
+        scores = [getattr(report.metrics[engine], key) for engine in engines]
         table.add_row(label, *("-" if score is None else f"{score:.2f}{unit}" for score in scores))
-    seconds = [report.seconds[engine] for engine in ENGINES]
+    seconds = [report.seconds[engine] for engine in engines]
     table.add_row("seconds", *("-" if s is None else f"{s:.1f}" for s in seconds))
     return table
 

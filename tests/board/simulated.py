@@ -92,6 +92,7 @@ def _simulate(program: Path, folder: Path) -> None:
 def _wait(path: Path, simulator: threading.Thread, folder: Path) -> str:
     deadline = time.monotonic() + START_SECONDS
     while not path.exists():
-        assert simulator.is_alive() and time.monotonic() < deadline, (folder / "log").read_text()
+        running = simulator.is_alive() and time.monotonic() < deadline
+        assert running, (folder / "log").read_text()
         time.sleep(0.02)
     return path.read_text()

@@ -73,9 +73,9 @@ def build(
     tools = find_toolchain()
     flags = (*VERILATOR_FLAGS, *(("--trace",) if waves else ()))
     ports = _visible_ports(inputs, outputs)
-    settings = (*flags, *MAKE_FLAGS, ports, *_versions(tools))
+    settings = (*flags, *MAKE_FLAGS, *_versions(tools))
     runtime = cache_folder() / "runtime" / _digest(settings)
-    folder = cache_folder() / "sim" / _digest((verilog, *settings))
+    folder = cache_folder() / "sim" / _digest((verilog, ports, *settings))
     with _locked(folder):
         cached = (folder / TOP).exists()
         if not cached:

@@ -144,7 +144,7 @@ def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, 
     if config.cost == "sad":
         return criteria[0], np.ones_like(criteria[0])
     # No strength exceeds 3 * one (the mean's sum), nor falls below minus that.
-    n_max = 3 * config.one * sum(weight(k) for k in range(1, CONCLUSIONS + 1))
+    n_max = 3 * config.one * sum(abs(weight(k)) for k in range(1, CONCLUSIONS + 1))
     s_max = 3 * config.one * CONCLUSIONS
     n = np.zeros(criteria[0].shape, integer(n_max * s_max))
     s = np.zeros_like(n)

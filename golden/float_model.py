@@ -15,7 +15,7 @@ from softdepth.golden.maps import DisparityMap
 from softdepth.golden.operators import operator
 from softdepth.golden.pair import Image, check_pair, check_pixel
 from softdepth.golden.views import column_in_core_view, from_core_view, to_core_view
-from softdepth.rules import weight
+from softdepth.rules import CONCLUSIONS, weight
 from softdepth.validity import Validity
 
 Array = NDArray[np.float64]
@@ -117,7 +117,7 @@ def _cost_function(
         s = compensate(config, d, criteria, [replacement] * len(criteria))
         numerator, denominator = np.zeros(s[0].shape), np.zeros(s[0].shape)
         for index, y_k in conclusions([memberships(s_i, label) for s_i in s], theta, config.rules):
-            numerator += y_k * weight(index)
+            numerator += y_k * (weight(index) - weight(CONCLUSIONS))
             denominator += y_k
         # A sum of zero or below judges nothing: the candidate loses against any other.
         return np.divide(numerator, denominator, out=np.full(s[0].shape, np.inf), where=denominator > 0)

@@ -5,7 +5,7 @@ from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.delay import Delay
-from softdepth.hdl.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.pipeline import Pipeline, Word, clocks, start, travelling
 
 
 class BoxSum(wiring.Component):
@@ -32,7 +32,8 @@ class BoxSum(wiring.Component):
         self._window = window
         self._steps = steps
         self.maximum = maximum * window
-        self.latency = box_latency(window)
+        self._operations = _operations(window)
+        self.latency = clocks(self._operations)
         super().__init__({"valid": In(1), "i": In(range(maximum + 1)), "o": Out(range(self.maximum + 1))})
 
     def elaborate(self, platform: object) -> Module:
@@ -40,12 +41,12 @@ class BoxSum(wiring.Component):
         pipeline = Pipeline(m)
         valid = travelling(m, self.valid, self.latency, "valid")
 
-        sums: dict[int, Word] = {1: pipeline.input(self.i, self._maximum)}
+        sums: dict[int, Word] = {1: pipeline.input(self.i, self._maximum, time=start(self._operations))}
 
         def pixels_ago(word: Word, pixels: int) -> Word:
             delay = Delay(word.value.shape(), pixels * self._steps)
             m.submodules[f"ago_{pixels}_of_{word.maximum // self._maximum}"] = delay
-            m.d.comb += [delay.en.eq(valid[word.time]), delay.i.eq(word.value)]
+            m.d.comb += [delay.en.eq(valid[pipeline.clock(word)]), delay.i.eq(word.value)]
             return pipeline.input(delay.o, word.maximum, time=word.time)
 
         def box(width: int) -> Word:
@@ -55,11 +56,11 @@ class BoxSum(wiring.Component):
             return sums[width]
 
         total = box(self._window)
-        assert total.time == self.latency
+        assert pipeline.clock(total) == self.latency
         m.d.comb += self.o.eq(total.value)
         return m
 
 
-def box_latency(window: int) -> int:
-    """Clocks that a `BoxSum` of this window takes."""
-    return 0 if window == 1 else 1 + box_latency((window + 1) // 2)
+def _operations(window: int) -> int:
+    """Operations in a row that a box of ``window`` columns takes."""
+    return 0 if window == 1 else 1 + _operations((window + 1) // 2)

@@ -71,7 +71,7 @@ class StereoCore(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         config = self._config
-        control = Pipeline(m)
+        control = Pipeline(m, levels=1)
 
         m.submodules.guard = guard = FrameGuard(config)
         m.submodules.sequencer = sequencer = Sequencer(config)

@@ -6,9 +6,8 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.hdl.compensation import Compensation
-from softdepth.hdl.defuzzifier import Defuzzifier
-from softdepth.hdl.membership import Membership
-from softdepth.hdl.rule_array import RuleArray
+from softdepth.hdl.inference import RuleInference
+from softdepth.hdl.mean_inference import MeanInference
 
 
 def criteria_layout(config: Config) -> data.StructLayout:
@@ -40,35 +39,24 @@ class FuzzyCost(wiring.Component):
     def __init__(self, config: Config) -> None:
         self._config = config
         self._compensation = Compensation(config)
-        self._memberships = [
-            Membership(config, criterion.label_bits, maximum)
-            for criterion, maximum in zip(config.criteria, self._compensation.maxima, strict=True)
-        ]
-        self._rules = RuleArray(config)
-        self._defuzzifier = Defuzzifier(config)
-        self.latency = (
-            self._compensation.latency + Membership.latency + self._rules.latency + self._defuzzifier.latency
+        inference = (
+            MeanInference if config.operator == "mean" and config.rules == "printed" else RuleInference
         )
+        self._inference = inference(config, self._compensation.maxima)
+        self.latency = self._compensation.latency + self._inference.latency
         super().__init__(_ports(config))
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.compensation = self._compensation
-        m.submodules.rules = self._rules
-        m.submodules.defuzzifier = self._defuzzifier
+        m.submodules.inference = self._inference
         m.d.comb += [
             self._compensation.near.eq(self.near),
             self._compensation.i.eq(self.i),
-            self._defuzzifier.i.eq(self._rules.o),
-            self.o.num.eq(self._defuzzifier.num),
-            self.o.den.eq(self._defuzzifier.den),
+            self._inference.i.eq(self._compensation.o),
+            self.o.num.eq(self._inference.num),
+            self.o.den.eq(self._inference.den),
         ]
-        for i, membership in enumerate(self._memberships):
-            m.submodules[f"membership_{i}"] = membership
-            m.d.comb += [
-                membership.i.eq(self._compensation.o[f"s{i}"]),
-                self._rules.i[i].eq(membership.o),
-            ]
         return m
 
 

@@ -5,11 +5,14 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
-from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
+from softdepth.hdl.pipeline import Pipeline, Word, clocks, start, tree_latency
 from softdepth.rules import CONCLUSIONS, weight
 
-SUM_LATENCY = tree_latency(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1)))
-"""Clocks of the weighted sum."""
+SUM_OPERATIONS = max(
+    tree_latency(CONCLUSIONS),
+    1 + tree_latency(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)),
+)
+"""Operations in a row of the weighted sum."""
 
 
 class Defuzzifier(wiring.Component):
@@ -29,7 +32,9 @@ class Defuzzifier(wiring.Component):
         self._strengths = config.strength_range
         (self._num_low, self._num_high), (_, self._den_high) = config.cost_range
         self._may_vanish = self._strengths[0] < 0
-        self.latency = SUM_LATENCY + self._may_vanish
+        self._operations = SUM_OPERATIONS + self._may_vanish
+        self._start = start(self._operations)
+        self.latency = clocks(self._operations)
         conclusion = range(self._strengths[0], self._strengths[1] + 1)
         super().__init__(
             {
@@ -44,19 +49,27 @@ class Defuzzifier(wiring.Component):
         pipeline = Pipeline(m)
         low, high = self._strengths
         conclusions = {
-            k: pipeline.input(self.i[f"y{k}"], high, minimum=low) for k in range(1, CONCLUSIONS + 1)
+            k: pipeline.input(self.i[f"y{k}"], high, minimum=low, time=self._start)
+            for k in range(1, CONCLUSIONS + 1)
+        }
+        # Opposite weights share a multiple: 5 (Y_1 - Y_11), 4 (Y_2 - Y_10), ...
+        differences = {
+            weight(k): pipeline.subtract(y, conclusions[CONCLUSIONS + 1 - k])
+            for k, y in conclusions.items()
+            if weight(k) > 0
         }
         terms: list[Word] = [
-            pipeline.shifted(y, bit)
-            for k, y in conclusions.items()
-            for bit in range(weight(k).bit_length())
-            if weight(k) >> bit & 1
+            pipeline.shifted(difference, bit)
+            for factor, difference in differences.items()
+            for bit in range(factor.bit_length())
+            if factor >> bit & 1
         ]
-        num = pipeline.at(pipeline.sum(sorted(terms, key=lambda t: t.maximum)), SUM_LATENCY)
-        den = pipeline.at(pipeline.sum(list(conclusions.values())), SUM_LATENCY)
+        ready = self._start + SUM_OPERATIONS
+        num = pipeline.at(pipeline.sum(sorted(terms, key=lambda t: t.maximum)), ready)
+        den = pipeline.at(pipeline.sum(list(conclusions.values())), ready)
         if self._may_vanish:
             vanishes = den.value <= 0
-            num = pipeline.register(Mux(vanishes, 1, num.value), num.minimum, num.maximum, SUM_LATENCY)
-            den = pipeline.register(Mux(vanishes, 0, den.value), 0, den.maximum, SUM_LATENCY)
+            num = pipeline.result(Mux(vanishes, 1, num.value), num.minimum, num.maximum, ready)
+            den = pipeline.result(Mux(vanishes, 0, den.value), 0, den.maximum, ready)
         m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
         return m

@@ -5,7 +5,7 @@ from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
-REGISTER_LIMIT = 8
+REGISTER_LIMIT = 16
 """Delays up to this depth are registers; longer ones are a ring in memory."""
 
 

@@ -9,9 +9,13 @@ SMALL_TABLE = 128
 """Tables up to this length are selected from entry by entry, which is smaller but slow to elaborate."""
 
 
+LEVELS = 2
+"""Operations between two registers."""
+
+
 @dataclass(frozen=True)
 class Word:
-    """A number in a pipeline: its signal, the range it can take, and the clock it is valid in."""
+    """A number in a pipeline: its signal, the range it can take, and its time in operations."""
 
     value: Value
     minimum: int
@@ -20,39 +24,54 @@ class Word:
 
 
 class Pipeline:
-    """Builds registered arithmetic into a module; every operation takes one clock.
+    """Builds pipelined arithmetic into a module.
 
-    Operands that arrive at different clocks are aligned by registers, widths follow from the ranges.
-    The registers run freely and have no reset: which clocks matter is told by valid bits elsewhere.
+    Time is counted in operations, of which ``levels`` fit between two registers: an operation is one
+    carry chain, or a table of a few levels. Operands of different times are aligned by registers,
+    widths follow from the ranges. The registers run freely and have no reset: which clocks matter is
+    told by valid bits elsewhere.
     """
 
-    def __init__(self, m: Module) -> None:
+    def __init__(self, m: Module, levels: int = LEVELS) -> None:
         self._m = m
+        self._levels = levels
         # Keyed by identity, so the source is kept alive beside its register.
         self._delayed: dict[tuple[int, int], tuple[Value, Value]] = {}
 
     def input(self, value: ValueLike, maximum: int, *, minimum: int = 0, time: int = 0) -> Word:
-        """A word that enters the pipeline at clock ``time``."""
+        """A word that enters the pipeline at ``time``."""
         return Word(Value.cast(value), minimum, maximum, time)
 
-    def register(self, value: ValueLike, minimum: int, maximum: int, time: int) -> Word:
-        """The word ``value``, computed at clock ``time``, one clock later."""
-        signal = Signal(_shape(minimum, maximum), name="word", reset_less=True)
-        self._m.d.sync += signal.eq(value)
-        return Word(signal, minimum, maximum, time + 1)
+    def result(self, value: ValueLike, minimum: int, maximum: int, time: int) -> Word:
+        """The word ``value``, an operation on words of ``time``."""
+        if (time + 1) % self._levels == 0:
+            return Word(self._register(value, minimum, maximum), minimum, maximum, time + 1)
+        wire = Signal(_shape(minimum, maximum), name="wire")
+        self._m.d.comb += wire.eq(value)
+        return Word(wire, minimum, maximum, time + 1)
 
     def at(self, word: Word, time: int) -> Word:
-        """``word`` delayed to clock ``time``."""
+        """``word`` delayed until ``time``."""
         if time < word.time:
-            raise ValueError(f"a word of clock {word.time} is not there at clock {time}")
+            raise ValueError(f"a word of time {word.time} is not there at time {time}")
         value = word.value
-        for now in range(word.time, time):
-            key = (id(value), now)
+        if isinstance(value, Const):
+            return Word(value, word.minimum, word.maximum, time)
+        for clock in range(word.time // self._levels, time // self._levels):
+            key = (id(value), clock)
             if key not in self._delayed:
-                register = self.register(value, word.minimum, word.maximum, now).value
-                self._delayed[key] = (value, register)
+                self._delayed[key] = (value, self._register(value, word.minimum, word.maximum))
             value = self._delayed[key][1]
         return Word(value, word.minimum, word.maximum, time)
+
+    def clock(self, word: Word) -> int:
+        """The clock in which ``word`` is there."""
+        return word.time // self._levels
+
+    def _register(self, value: ValueLike, minimum: int, maximum: int) -> Value:
+        signal = Signal(_shape(minimum, maximum), name="word", reset_less=True)
+        self._m.d.sync += signal.eq(value)
+        return signal
 
     def aligned(self, *words: Word) -> tuple[Word, ...]:
         """The words, all delayed to the latest of their clocks."""
@@ -62,41 +81,41 @@ class Pipeline:
     def add(self, a: Word, b: Word) -> Word:
         """``a + b``."""
         a, b = self.aligned(a, b)
-        return self.register(a.value + b.value, a.minimum + b.minimum, a.maximum + b.maximum, a.time)
+        return self.result(a.value + b.value, a.minimum + b.minimum, a.maximum + b.maximum, a.time)
 
     def max(self, a: Word, b: Word) -> Word:
         """The larger of two words."""
         a, b = self.aligned(a, b)
         larger = Mux(a.value > b.value, a.value, b.value)
-        return self.register(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time)
+        return self.result(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time)
 
     def min(self, a: Word, b: Word) -> Word:
         """The smaller of two words."""
         a, b = self.aligned(a, b)
         smaller = Mux(a.value < b.value, a.value, b.value)
-        return self.register(smaller, min(a.minimum, b.minimum), min(a.maximum, b.maximum), a.time)
+        return self.result(smaller, min(a.minimum, b.minimum), min(a.maximum, b.maximum), a.time)
 
     def subtract(self, a: Word, b: Word) -> Word:
         """``a - b``."""
         a, b = self.aligned(a, b)
-        return self.register(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
+        return self.result(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
 
     def distance(self, a: Word, b: Word) -> Word:
         """``|a - b|``."""
         a, b = self.aligned(a, b)
         difference = Mux(a.value > b.value, a.value - b.value, b.value - a.value)
         reach = max(a.maximum - b.minimum, b.maximum - a.minimum)
-        return self.register(difference, 0, reach, a.time)
+        return self.result(difference, 0, reach, a.time)
 
     def multiply(self, a: Word, b: Word) -> Word:
         """``a * b`` of two words that are never negative."""
         a, b = self.aligned(a, b)
-        return self.register(a.value * b.value, 0, a.maximum * b.maximum, a.time)
+        return self.result(a.value * b.value, 0, a.maximum * b.maximum, a.time)
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""
         half = 1 << bits >> 1
-        return self.register(
+        return self.result(
             (word.value + half) >> bits,
             (word.minimum + half) >> bits,
             (word.maximum + half) >> bits,
@@ -109,9 +128,9 @@ class Pipeline:
         entries = [Const(value, _shape(low, high)) for value in table]
         if len(table) > SMALL_TABLE:
             starts = [0, *(i for i in range(1, len(table)) if table[i] != table[i - 1])]
-            return self.register(_search(word.value, entries, starts), low, high, word.time)
+            return self.result(_search(word.value, entries, starts), low, high, word.time)
         beyond = word.value >= len(table) - 1
-        return self.register(Mux(beyond, entries[-1], Array(entries)[word.value]), low, high, word.time)
+        return self.result(Mux(beyond, entries[-1], Array(entries)[word.value]), low, high, word.time)
 
     def within(self, word: Word, minimum: int, maximum: int) -> Word:
         """``word``, known by other reasoning to stay within a narrower range: wires only."""
@@ -124,7 +143,7 @@ class Pipeline:
         return Word(word.value << bits, word.minimum << bits, word.maximum << bits, word.time)
 
     def tree(self, operation: Callable[[Word, Word], Word], words: Sequence[Word]) -> Word:
-        """Reduce ``words`` with a balanced tree, in ``tree_latency(len(words))`` clocks."""
+        """Reduce ``words`` with a balanced tree, in ``tree_latency(len(words))`` operations."""
         level = list(words)
         while len(level) > 1:
             paired = [operation(a, b) for a, b in zip(level[::2], level[1::2], strict=False)]
@@ -134,6 +153,16 @@ class Pipeline:
     def sum(self, words: Sequence[Word]) -> Word:
         """The sum of ``words`` by a balanced adder tree."""
         return self.tree(self.add, words)
+
+
+def clocks(operations: int, levels: int = LEVELS) -> int:
+    """Clocks that so many operations in a row take."""
+    return -(-operations // levels)
+
+
+def start(operations: int, levels: int = LEVELS) -> int:
+    """When so many operations in a row begin, for the last to end in a register."""
+    return -operations % levels
 
 
 def travelling(m: Module, bit: Signal, clocks: int, name: str, *, since: int = 0) -> list[Signal]:
@@ -149,7 +178,7 @@ def travelling(m: Module, bit: Signal, clocks: int, name: str, *, since: int = 0
 
 
 def tree_latency(words: int) -> int:
-    """Clocks that `Pipeline.tree` takes for so many words."""
+    """Operations in a row that `Pipeline.tree` takes for so many words."""
     return (words - 1).bit_length()
 
 

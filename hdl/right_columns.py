@@ -18,7 +18,8 @@ class RightColumns(wiring.Component):
 
     The last ``disparities`` columns lie in one segment of ``steps`` columns per lane. A segment is a
     ring of ``steps - 1`` places that turns once per pixel, plus one place in which the oldest
-    column waits for the next lane: no multiplexer but the ring's own, whatever the number of lanes.
+    column waits for the next lane: no multiplexer but the ring's own, whatever the number of lanes, and
+    none at all with two steps or one.
 
     Members
     -------
@@ -47,14 +48,16 @@ class RightColumns(wiring.Component):
             m.submodules[f"ring_{lane}"] = ring = Delay(self._column, self._config.steps - 1)
             m.submodules[f"wait_{lane}"] = wait = Delay(self._column, 1)
             m.d.comb += [
-                ring.en.eq(self.valid),
-                ring.i.eq(Mux(self.first, entering, current)),
                 current.eq(ring.o),
                 wait.en.eq(self.valid & self.first),
                 wait.i.eq(current),
                 self.columns[lane].eq(current),
             ]
-            if self._config.steps == 1:  # the ring is a wire: there is nothing to turn
-                m.d.comb += ring.i.eq(entering)
+            if (
+                self._config.steps <= 2
+            ):  # nothing to turn: a wire, or one place that takes a column or holds it
+                m.d.comb += [ring.en.eq(self.valid & self.first), ring.i.eq(entering)]
+            else:
+                m.d.comb += [ring.en.eq(self.valid), ring.i.eq(Mux(self.first, entering, current))]
             entering = wait.o
         return m

@@ -7,7 +7,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth.config import Config
 from softdepth.hdl.membership import memberships_layout
 from softdepth.hdl.operators import OPERATORS
-from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
+from softdepth.hdl.pipeline import Pipeline, Word, clocks, start, tree_latency
 from softdepth.rules import CONCLUSIONS, rule_base
 
 LABELS = {1: "low", 2: "middle", 3: "high"}
@@ -38,9 +38,13 @@ class RuleArray(wiring.Component):
             for k, rules in rule_base(config.rules).items()
         }
         widest = max(len(pairs) for by_label in self._needs.values() for pairs in by_label.values())
-        self._pairs_ready = self._operator.pair_latency + tree_latency(widest)
+        pairs = self._operator.pair_latency + tree_latency(widest)
         most = max(len(by_label) for by_label in self._needs.values())
-        self.latency = self._pairs_ready + self._operator.fire_latency + tree_latency(most)
+        operations = pairs + self._operator.fire_latency + tree_latency(most)
+        self._start = start(operations)
+        self._pairs_ready = self._start + pairs
+        self._ready = self._start + operations
+        self.latency = clocks(operations)
         low, high = config.strength_range
         strength = range(low, high + 1)
         super().__init__(
@@ -55,7 +59,7 @@ class RuleArray(wiring.Component):
         pipeline = Pipeline(m)
 
         def membership(criterion: int, label: int) -> Word:
-            return pipeline.input(self.i[criterion - 1][LABELS[label]], self._config.one)
+            return pipeline.input(self.i[criterion - 1][LABELS[label]], self._config.one, time=self._start)
 
         joined: dict[Pairs, Word] = {}
 
@@ -79,7 +83,7 @@ class RuleArray(wiring.Component):
                 self._operator.fire(pipeline, membership(1, a), pipeline.at(join(pairs), self._pairs_ready))
                 for a, pairs in sorted(by_label.items())
             ]
-            strength = pipeline.at(pipeline.tree(pipeline.max, fired), self.latency)
+            strength = pipeline.at(pipeline.tree(pipeline.max, fired), self._ready)
             assert (strength.minimum, strength.maximum) == self._config.strength_range
             m.d.comb += self.o[f"y{k}"].eq(strength.value)
         return m

@@ -292,9 +292,13 @@ class Config(_Frozen):
         """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
         if self.cost == "sad":
             return (0, self.criteria[0].maximum), (1, 1)
+        if self.operator == "mean" and self.rules == "printed":
+            # Conclusions depend on each other: tighter than the sums of their own extremes.
+            return (-27 * self.one, 26 * self.one), (0, 19 * self.one)
         low, high = self.strength_range
-        weights = sum(weight(k) for k in range(1, CONCLUSIONS + 1))
-        return (weights * low, weights * high), (CONCLUSIONS * low, CONCLUSIONS * high)
+        positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
+        reach = positive * (high - low)
+        return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)
 
     @property
     def multipliers(self) -> int:

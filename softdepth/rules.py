@@ -70,8 +70,8 @@ def factorised_thetas(name: RuleBaseName) -> int:
 
 
 def weight(conclusion: int) -> int:
-    """Output label ``M_k``: falls linearly from 10 (``Y_1``, worst) to 0 (``Y_11``, best).
+    """Output label ``M_k``: falls linearly from 5 (``Y_1``, worst) to -5 (``Y_11``, best).
 
-    Any affine change of the weights leaves the argmin unchanged.
+    Any affine change of the weights leaves the argmin unchanged; centred ones are the smallest.
     """
-    return CONCLUSIONS - conclusion
+    return (CONCLUSIONS + 1) // 2 - conclusion

@@ -2,16 +2,15 @@
 
 from collections.abc import Sequence
 
-from amaranth.hdl import Module, Mux, Value
+from amaranth.hdl import Module
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS, Config, Sad
-from softdepth.hdl.box_sum import BoxSum, box_latency
+from softdepth.hdl.box_sum import BoxSum
+from softdepth.hdl.criteria.column_sad import ColumnSad, column_maximum
 from softdepth.hdl.delay import Delay
-from softdepth.hdl.pipeline import Pipeline, Word, travelling, tree_latency
-
-CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
+from softdepth.hdl.pipeline import Pipeline, Word, travelling
 
 
 class SadCriteria(wiring.Component):
@@ -38,8 +37,9 @@ class SadCriteria(wiring.Component):
         self._config = config
         self._criteria = criteria
         self._windows = sorted({criterion.window for criterion in criteria})
-        self._column_latency = _column_latency(self._windows)
-        self.latency = self._column_latency + max(box_latency(w) for w in self._windows)
+        self._column = ColumnSad(self._windows)
+        self._boxes = {w: BoxSum(column_maximum(w), w, config.steps) for w in self._windows}
+        self.latency = self._column.latency + max(box.latency for box in self._boxes.values())
         pixel = data.ArrayLayout(CHANNEL_BITS, CHANNELS)
         column = data.ArrayLayout(pixel, config.min_height)
         super().__init__(
@@ -53,14 +53,16 @@ class SadCriteria(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        pipeline = Pipeline(m)
+        pipeline = Pipeline(m, levels=1)
         valid = travelling(m, self.valid, self.latency, "valid")
 
         sums: dict[int, Word] = {}
-        for window, column in self._column_costs(pipeline).items():
-            m.submodules[f"box_{window}"] = box = BoxSum(column.maximum, window, self._config.steps)
-            m.d.comb += [box.valid.eq(valid[column.time]), box.i.eq(column.value)]
-            total = pipeline.input(box.o, box.maximum, time=column.time + box.latency)
+        m.submodules.column = column = self._column
+        m.d.comb += [column.left.eq(self.left), column.right.eq(self.right)]
+        for window in self._windows:
+            m.submodules[f"box_{window}"] = box = self._boxes[window]
+            m.d.comb += [box.valid.eq(valid[column.latency]), box.i.eq(column.o[f"c{window}"])]
+            total = pipeline.input(box.o, box.maximum, time=column.latency + box.latency)
             sums[window] = pipeline.at(total, self.latency)
 
         for i, criterion in enumerate(self._criteria):
@@ -75,37 +77,3 @@ class SadCriteria(wiring.Component):
                 self.o[f"s{i}"].eq(hold.o),
             ]
         return m
-
-    def _column_costs(self, pipeline: Pipeline) -> dict[int, Word]:
-        """The cost of one column for each window height, all at the same clock."""
-        middle = self._config.reach_rows
-
-        def row(offset: int) -> list[Word]:
-            pixels = self.left[middle + offset], self.right[middle + offset]
-            return [
-                pipeline.register(absolute_difference(pixels[0][c], pixels[1][c]), 0, CHANNEL_MAXIMUM, 0)
-                for c in range(CHANNELS)
-            ]
-
-        costs: dict[int, Word] = {}
-        inner = -1  # the largest row offset that is summed already
-        for window in self._windows:
-            rows = [offset for offset in range(-(window // 2), window // 2 + 1) if abs(offset) > inner]
-            added = pipeline.sum([word for offset in rows for word in row(offset)])
-            costs[window] = pipeline.add(costs[max(costs)], added) if costs else added
-            inner = window // 2
-        return {w: pipeline.at(cost, self._column_latency) for w, cost in costs.items()}
-
-
-def absolute_difference(a: Value, b: Value) -> Value:
-    """``|a - b|`` of two unsigned values."""
-    return Mux(a > b, a - b, b - a)[: len(a)]
-
-
-def _column_latency(windows: Sequence[int]) -> int:
-    latency, inner = 0, 0
-    for window in windows:
-        added = 1 + tree_latency((window - inner) * CHANNELS)
-        latency = max(latency, added) + 1 if inner else added
-        inner = window
-    return latency

@@ -19,9 +19,9 @@ class Operator(Protocol):
     """
 
     pair_latency: int
-    """Clocks of `pair`."""
+    """Operations in a row of `pair`."""
     fire_latency: int
-    """Clocks of `fire`."""
+    """Operations in a row of `fire`."""
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """The half that joins the memberships of criteria 2 and 3."""

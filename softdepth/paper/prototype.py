@@ -15,7 +15,7 @@ from softdepth.golden.inference import conclusions
 from softdepth.golden.operators import operator
 from softdepth.golden.sad import box_sum
 from softdepth.paper.readings import Reading
-from softdepth.rules import weight
+from softdepth.rules import CONCLUSIONS, weight
 
 Array = NDArray[np.float64]
 
@@ -60,6 +60,6 @@ def cost(criteria: Sequence[NDArray[np.generic]], name: Operator, label: float) 
     theta = operator(name, delta=fields["softness"].default, k=fields["sharpness"].default)
     numerator, denominator = np.zeros(criteria[0].shape), np.zeros(criteria[0].shape)
     for k, y_k in conclusions([memberships(s, label) for s in criteria], theta, "printed"):
-        numerator += y_k * weight(k)
+        numerator += y_k * (weight(k) - weight(CONCLUSIONS))
         denominator += y_k
     return np.divide(numerator, denominator, out=np.full_like(numerator, np.inf), where=denominator > 0)

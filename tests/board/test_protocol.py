@@ -1,0 +1,64 @@
+"""The protocol's packets, as the host writes and reads them."""
+
+import json
+import zlib
+
+import numpy as np
+import pytest
+
+from softdepth.config import Config
+from softdepth.protocol import ESCAPE, FLAG, Packet, Type, decode, describe, encode, result_bytes
+
+
+def inside(framed: bytes) -> bytes:
+    assert framed[0] == framed[-1] == FLAG
+    assert FLAG not in framed[1:-1]
+    return framed[1:-1]
+
+
+@pytest.mark.parametrize("length", [0, 1, 255, 256, 7680])
+def test_packets_survive(length):
+    payload = np.random.default_rng(length).bytes(length)
+    packet = Packet(Type.LINE, 0x7D7E, payload)
+    assert decode(inside(encode(packet))) == packet
+
+
+def test_the_wire_is_as_documented():
+    body = bytes([1, 3, 0x34, 0x12, 2, 0, FLAG, ESCAPE])
+    crc = zlib.crc32(body).to_bytes(4, "little")
+    expected = bytes([FLAG, 1, 3, 0x34, 0x12, 2, 0, 0x7D, 0x5E, 0x7D, 0x5D]) + crc + bytes([FLAG])
+    assert encode(Packet(Type.LINE, 0x1234, bytes([FLAG, ESCAPE]))) == expected
+
+
+def test_every_flipped_bit_is_found():
+    whole = inside(encode(Packet(Type.LINE, 7, bytes(range(0x70, 0x90)))))
+    for place in range(len(whole)):
+        for bit in range(8):
+            wrong = bytearray(whole)
+            wrong[place] ^= 1 << bit
+            assert all(decode(part) is None for part in bytes(wrong).split(bytes([FLAG]))), (place, bit)
+
+
+def test_every_cut_and_every_lost_byte_is_found():
+    whole = inside(encode(Packet(Type.STATUS, 500, bytes(range(0x78, 0x88)))))
+    for place in range(len(whole)):
+        assert decode(whole[:place]) is None
+        assert decode(whole[:place] + whole[place + 1 :]) is None
+
+
+def test_an_escape_at_the_end_is_broken():
+    assert decode(bytes([ESCAPE])) is None
+    assert decode(inside(encode(Packet(Type.HELLO, 0))) + bytes([ESCAPE])) is None
+    assert decode(bytes([ESCAPE, ESCAPE, 0])) is None
+
+
+@pytest.mark.parametrize(("disparities", "size"), [(8, 1), (64, 1), (65, 2), (256, 2)])
+def test_results_take_whole_bytes(disparities, size):
+    assert result_bytes(Config.from_dict({"disparities": disparities, "lanes": 1})) == size
+
+
+def test_a_board_describes_its_configuration():
+    config = Config.preset("lite").override(["lanes=4", "reference=right"])
+    said = json.loads(describe(config, "ulx3s-12f", "0.1.0"))
+    assert (said["board"], said["revision"], said["hash"]) == ("ulx3s-12f", "0.1.0", config.hash)
+    assert Config.from_dict(said["config"]) == config

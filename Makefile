@@ -3,6 +3,9 @@
 PYTHON ?= python3
 PRESET ?= paper
 TESTS ?=
+BOARD ?= ulx3s-85f
+SEED ?= 1
+ARGS ?=
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -13,10 +16,10 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast bench compare paper lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast bench compare paper bitstream program utilization lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/motorcycle
 	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) -o $(DEMO)
@@ -68,6 +71,17 @@ lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgra
 export: $(READY) ## the core as Verilog in out/ (another preset: make export PRESET=lite)
 	@mkdir -p out
 	@$(BIN)/softdepth export --preset $(PRESET) -o out/softdepth_$(PRESET).v
+
+# A core of your own: make bitstream BOARD=... ARGS="--preset lite --lanes 8".
+bitstream: $(READY) ## a board's bitstream in out/BOARD (another: make bitstream BOARD=icebreaker)
+	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD)
+
+program: $(READY) ## load the bitstream into the board that is plugged in, built before if need be
+	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD) --program
+
+# Hours at first; what was measured before is taken from the cache. A part of it: ARGS=--quick.
+utilization: $(READY) ## measure area and speed: docs/utilization.md
+	@$(BIN)/softdepth utilization $(ARGS)
 
 readme: demo ## renew the figures and the picture in README.md from the demo's results
 	@$(BIN)/python -m softdepth.readme $(DEMO)

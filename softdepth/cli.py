@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from softdepth.commands import bench, board, compare, export, info, listing, paper, run
+from softdepth.commands import bench, board, build, compare, export, info, listing, paper, run, utilization
 from softdepth.errors import SoftdepthError
 
 EXIT_MISMATCH = run.EXIT_MISMATCH
@@ -29,6 +29,8 @@ app.command("run")(run.run)
 app.command("board")(board.board)
 app.command("compare")(compare.compare)
 app.command("export")(export.export)
+app.command("build")(build.build)
+app.command("utilization")(utilization.utilization)
 app.command("info")(info.info)
 app.command("presets")(listing.presets)
 app.command("datasets")(listing.datasets)

@@ -1,5 +1,7 @@
 """From a board and a configuration to a bitstream, with a manifest of how it came about."""
 
+import hashlib
+import json
 import shutil
 import subprocess
 import tempfile
@@ -15,12 +17,12 @@ from softdepth.config import Config
 from softdepth.errors import InputError
 from softdepth.flow.parts import PACKER, PLACER, Part
 from softdepth.flow.route import PLACED, place_and_route
+from softdepth.flow.sources import PROJECT, sources_hash
 from softdepth.flow.stages import Stages
 from softdepth.flow.synthesis import synthesise
 from softdepth.flow.tools import find_tool
 from softdepth.results import result_folder
 
-PROJECT = Path(__file__).resolve().parents[2]
 MANIFEST = "manifest.json"
 FILES = ("config.toml", "netlist.json", "nextpnr.log", "timing.json")
 """What lies beside bitstream and manifest."""
@@ -31,11 +33,13 @@ class Manifest(BaseModel):
 
     Members
     -------
+    key : changes with all that the bitstream depends on: sources, board, configuration, tools and seed.
     revision : the git revision of the project, with ``-dirty`` where files differ from it; None outside git.
     usage : used and available cells, in nextpnr's own words.
     seconds : wall-clock time of each stage.
     """
 
+    key: str
     board: str
     device: str
     bitstream: str
@@ -57,6 +61,8 @@ class Manifest(BaseModel):
 def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manifest:
     """Build the board's top with a core of `config`; the files appear in `output` all together.
 
+    Where `output` holds the result of the same sources, tools and arguments already, it stays as it is.
+
     Raises `ConfigError` for a core that does not fit the part, `ToolError` for a missing or failed tool,
     `TimingError` (one of them) for a core that is slower than the board's clock, and `InputError` where
     `output` cannot be written. Nothing is written then.
@@ -67,6 +73,10 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     tools = {name: find_tool(name) for name in ("yosys", PLACER[part.family], PACKER[part.family])}
     constraints = constraints_file(board)
     name = f"softdepth-{board.name}{part.suffix}"
+    facts = [sources_hash(constraints), str(board), config.model_dump_json(), seed, *map(str, tools.values())]
+    key = hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:20]
+    if (known := _up_to_date(output, key)) is not None:
+        return known
     stages = Stages(f"{board.name}, {config.name}")
     revision = git_revision(PROJECT)
     described = " ".join(filter(None, (version("softdepth"), revision)))
@@ -85,6 +95,7 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
             tools[PACKER[part.family]].run(part.pack(PLACED, name), work)
         slowest = routed.clocks[0]
         manifest = Manifest(
+            key=key,
             board=board.name,
             device=part.device,
             bitstream=name,
@@ -108,6 +119,15 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
         config.save(results / "config.toml")
         (results / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
     return manifest
+
+
+def _up_to_date(output: Path, key: str) -> Manifest | None:
+    """The manifest of an earlier build of the same, where its bitstream still lies beside it."""
+    try:
+        known = Manifest.model_validate_json((output / MANIFEST).read_text())
+    except (OSError, ValueError):
+        return None
+    return known if known.key == key and (output / known.bitstream).is_file() else None
 
 
 def constraints_file(board: Board) -> Path:

@@ -18,6 +18,9 @@ from softdepth.flow.tools import find_tool
 TOP = "top"
 """The name of every synthesised design."""
 
+SCOPE = "$scopeinfo"
+"""A cell that is none: yosys leaves one of the name of each module that it flattened."""
+
 Netlist = dict[str, Any]
 """A design as yosys writes it in JSON."""
 
@@ -34,7 +37,7 @@ COMMANDS: dict[Family, str] = {
 }
 
 # Lanes were kept apart so that each was mapped once; from here on the design is one module.
-_JOIN = "setattr -mod -unset keep_hierarchy; flatten; delete t:$scopeinfo; opt_merge; opt_clean"
+_JOIN = "setattr -mod -unset keep_hierarchy; flatten; opt_merge; opt_clean"
 
 
 def to_rtlil(design: Component) -> str:
@@ -83,4 +86,5 @@ def synthesise(
 
 def cells(netlist: Netlist) -> Counter[str]:
     """How many cells of each type the design has."""
-    return Counter(cell["type"] for cell in netlist["modules"][TOP]["cells"].values())
+    types = (cell["type"] for cell in netlist["modules"][TOP]["cells"].values())
+    return Counter(kind for kind in types if kind != SCOPE)

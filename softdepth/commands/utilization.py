@@ -1,0 +1,64 @@
+"""``softdepth utilization``: area and speed of the recommended configurations, measured."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from softdepth import screen
+from softdepth.errors import InputError
+
+if TYPE_CHECKING:
+    from softdepth.flow.utilization import Selection
+
+
+def utilization(
+    row: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--row", metavar="PRESET/OPERATOR/LANES", help="Measure this row; repeatable [default: all]."
+        ),
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="The rows of four lanes only.")] = False,
+    disparities: Annotated[
+        int, typer.Option("--disparities", metavar="N", help="Candidates per pixel.")
+    ] = 64,
+    width: Annotated[int, typer.Option("--width", metavar="N", help="The longest line.")] = 1280,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Where nextpnr starts from.")] = 1,
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder of utilization.md and utilization.json."),
+    ] = Path("docs"),
+) -> None:
+    """Synthesise, place and route cores for an LFE5U-85F and write down area and speed.
+
+    What was measured before is taken from the cache, unless gateware, flow or tools have changed.
+    """
+    from softdepth.flow import utilization, utilization_page
+
+    rows = [_selection(text) for text in row or ()] or (
+        utilization_page.QUICK if quick else utilization_page.RECOMMENDED
+    )
+    configs = [each.config(disparities, width) for each in rows]  # all are sound before the first is built
+    if not output.is_dir():
+        raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
+    found = []
+    for number, (each, config) in enumerate(zip(rows, configs, strict=True), start=1):
+        screen.note(f"row {number} of {len(rows)}: {each}")
+        found.append(utilization.measure(config, each.preset, seed=seed))
+    utilization_page.write(output, found)
+    print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
+
+
+def _selection(text: str) -> "Selection":
+    from pydantic import ValidationError
+
+    from softdepth.flow.utilization import Selection
+
+    names = ("preset", "operator", "lanes")
+    try:
+        return Selection.model_validate(dict(zip(names, text.split("/"), strict=True)))
+    except (ValueError, ValidationError) as error:
+        raise InputError(
+            f"--row '{text}' is not PRESET/OPERATOR/LANES", "write for example --row paper/mean/16"
+        ) from error

@@ -1,9 +1,9 @@
 """Clock and reset of a board."""
 
-from amaranth.hdl import ClockDomain, ClockSignal, Module, ResetSignal, Signal
+from amaranth.hdl import ClockDomain, ClockSignal, Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.cdc import ResetSynchronizer
-from amaranth.lib.wiring import In
+from amaranth.lib.wiring import In, Out
 
 from softdepth.boards import Board
 from softdepth.hdl.boards.pll import pll
@@ -13,7 +13,7 @@ HOLD_CLOCKS = 256
 
 
 class Clocking(wiring.Component):
-    """Makes the domain ``sync`` of ``board.core_hz``, in reset until its clock is good.
+    """Makes a clock of ``board.core_hz``, and a reset that lasts until it is good.
 
     Parameters
     ----------
@@ -23,32 +23,30 @@ class Clocking(wiring.Component):
     Members
     -------
     oscillator, button : the clock's pin; the reset button is pressed (asynchronous).
+    clock, reset : for the domain ``sync``.
     """
 
     def __init__(self, board: Board, simulated: bool = False) -> None:
         self._board = board
         self._simulated = simulated
-        super().__init__({"oscillator": In(1), "button": In(1)})
+        super().__init__({"oscillator": In(1), "button": In(1), "clock": Out(1), "reset": Out(1, init=1)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         board = self._board
-        m.domains.sync = ClockDomain("sync")
         m.domains.waking = ClockDomain("waking")
-        clock, locked = Signal(), Signal()
+        locked = Signal()
         if self._simulated or board.clock_hz == board.core_hz:
-            m.d.comb += [clock.eq(self.oscillator), locked.eq(1)]
+            m.d.comb += [self.clock.eq(self.oscillator), locked.eq(1)]
         else:
-            m.submodules.pll = pll(board, self.oscillator, clock, locked)
-        m.d.comb += [ClockSignal("sync").eq(clock), ClockSignal("waking").eq(clock)]
+            m.submodules.pll = pll(board, self.oscillator, self.clock, locked)
+        m.d.comb += ClockSignal("waking").eq(self.clock)
         m.submodules.release = ResetSynchronizer(~locked | self.button, domain="waking", stages=3)
 
         # The button bounces; each bounce begins the wait anew.
         held = Signal(range(HOLD_CLOCKS))
-        reset = Signal(init=1)
         with m.If(held == HOLD_CLOCKS - 1):
-            m.d.waking += reset.eq(0)
+            m.d.waking += self.reset.eq(0)
         with m.Else():
             m.d.waking += held.eq(held + 1)
-        m.d.comb += ResetSignal("sync").eq(reset)
         return m

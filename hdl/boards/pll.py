@@ -33,7 +33,7 @@ def ecp5_divisors(clock_hz: int, core_hz: int) -> Divisors:
     found = (
         Divisors(reference, feedback, output)
         for reference, feedback in _ratios(clock_hz, core_hz, 128, 80)
-        if 10 * MHZ <= clock_hz / reference <= 400 * MHZ
+        if 10 * MHZ <= clock_hz / reference <= 400 * MHZ and core_hz <= 400 * MHZ
         for output in range(1, 129)
         if 400 * MHZ <= core_hz * output <= 800 * MHZ
     )

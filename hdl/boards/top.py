@@ -1,6 +1,6 @@
 """The top of every board: clock, core behind the serial port, LEDs."""
 
-from amaranth.hdl import Cat, Module, ResetSignal
+from amaranth.hdl import Cat, ClockDomain, ClockSignal, Module, ResetSignal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
@@ -70,6 +70,7 @@ class BoardTop(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
+        m.domains.sync = ClockDomain("sync")
         m.submodules.clocking = clocking = self._clocking
         m.submodules.core = core = self._core
         m.submodules.lamps = lamps = Lamps(self._board.core_hz)
@@ -78,6 +79,8 @@ class BoardTop(wiring.Component):
         lit = Cat(getattr(lamps, name) & ~ResetSignal("sync") for name in self._wiring.lamps)
         m.d.comb += [
             clocking.oscillator.eq(self.clk),
+            ClockSignal("sync").eq(clocking.clock),
+            ResetSignal("sync").eq(clocking.reset),
             core.rx.eq(self.rx),
             self.tx.eq(core.tx),
             lamps.receiving_now.eq(core.receiving),

@@ -1,0 +1,124 @@
+"""Board tops: ports as in the pin files, clocks that can be made, LEDs."""
+
+import re
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from amaranth.hdl import Signal
+from amaranth.sim import SimulatorContext
+
+from softdepth.boards import BOARDS, Board
+from softdepth.commands.export import ports
+from softdepth.config import Config
+from softdepth.errors import ConfigError
+from softdepth.hdl.boards import BoardTop
+from softdepth.hdl.boards.lamps import BLINKS_PER_SECOND, Lamps
+from softdepth.hdl.boards.pll import ecp5_divisors, gowin_divisors, ice40_divisors
+from softdepth.hdl.boards.top import line_divisor
+from softdepth.hdl.verilog import to_verilog
+from tests.hdl.support import simulate
+
+MHZ = 1_000_000
+PINS = re.compile(r'^(?:LOCATE COMP "([^"]+)" SITE|set_io (\S+) |IO_LOC "([^"]+)")', re.MULTILINE)
+PLL = {"ecp5": "EHXPLLL", "ice40": "SB_PLL40_PAD", "gowin": "rPLL"}
+
+
+@pytest.fixture
+def config() -> Config:
+    return Config.preset("sad").override(["disparities=8", "lanes=1", "max_width=16", "max_height=16"])
+
+
+def pins(path: Path) -> set[str]:
+    """The nets that a constraint file places."""
+    return {next(filter(None, match)) for match in PINS.findall(path.read_text())}
+
+
+@pytest.mark.parametrize("board", [BOARDS[name] for name in ("ulx3s-85f", "icebreaker", "tangnano20k")])
+def test_ports_are_the_pins_of_the_constraint_file(project, config, board: Board):
+    verilog = to_verilog(BoardTop(board, config), name="top")
+    found = set()
+    for way, bits, name in (line.split() for line in ports(verilog, "top")):
+        assert way == ("input" if name in ("clk", "rx", "button") else "output")
+        found |= {f"{name}[{k}]" for k in range(int(bits))} if name == "led" else {name}
+    assert found == pins(project / "constraints" / board.constraints)
+    assert PLL[board.family] in verilog
+
+
+def test_without_another_clock_there_is_no_pll(config):
+    board = replace(BOARDS["ulx3s-85f"], core_hz=25 * MHZ, baud=1 * MHZ)
+    assert PLL["ecp5"] not in to_verilog(BoardTop(board, config), name="top")
+    assert PLL["ecp5"] not in to_verilog(BoardTop(BOARDS["ulx3s-85f"], config, simulated=True), name="top")
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board: board.name)
+def test_every_board_has_a_line_that_its_clock_makes(board: Board):
+    assert abs(board.core_hz / line_divisor(board) / board.baud - 1) < 0.015
+
+
+@pytest.mark.parametrize("core", [25, 50, 62.5, 75, 87.5, 100, 125, 150])
+def test_ecp5_pll(core):
+    reference, feedback, output = ecp5_divisors(25 * MHZ, round(core * MHZ))
+    assert 25 * feedback == core * reference
+    assert 25 / reference >= 10
+    assert 400 <= core * output <= 800
+
+
+@pytest.mark.parametrize("core", [18, 24, 30, 48, 60])
+def test_ice40_pll(core):
+    reference, feedback, output = ice40_divisors(12 * MHZ, core * MHZ)
+    assert 12 * feedback == core * reference * output
+    assert 533 <= 12 / reference * feedback <= 1066
+    assert output in (2, 4, 8, 16, 32, 64)
+
+
+@pytest.mark.parametrize("core", [27, 54, 81, 108])
+def test_gowin_pll(core):
+    reference, feedback, output = gowin_divisors(27 * MHZ, core * MHZ)
+    assert 27 * feedback == core * reference
+    assert 500 <= core * output <= 1250
+
+
+@pytest.mark.parametrize(
+    ("make", "oscillator", "core"),
+    [
+        (ecp5_divisors, 25, 500),
+        (ecp5_divisors, 25, 2),
+        (ecp5_divisors, 25, 133),
+        (ice40_divisors, 12, 300),
+        (gowin_divisors, 27, 1),
+    ],
+)
+def test_clocks_that_cannot_be_made_are_refused(make, oscillator, core):
+    with pytest.raises(ConfigError, match=f"cannot make {core} MHz from the oscillator's {oscillator} MHz"):
+        make(oscillator * MHZ, core * MHZ)
+
+
+@pytest.mark.parametrize("baud", [20 * MHZ, 3_700_000])
+def test_rates_that_the_clock_cannot_make_are_refused(baud):
+    with pytest.raises(ConfigError, match=f"50 MHz cannot make {baud} baud"):
+        line_divisor(replace(BOARDS["ulx3s-85f"], core_hz=50 * MHZ, baud=baud))
+
+
+def test_lamps_blink_and_hold_short_events():
+    clock = 160
+    dut = Lamps(clock)
+    alive: list[int] = []
+    error: list[int] = []
+
+    async def bench(ctx: SimulatorContext, rst: Signal) -> None:
+        for t in range(3 * clock):
+            ctx.set(dut.troubled_now, t == clock)
+            ctx.set(dut.fault, t >= 2 * clock)
+            _, _, *now = await ctx.tick().sample(dut.alive, dut.error)
+            alive.append(now[0])
+            error.append(now[1])
+
+    simulate(dut, bench)
+    edges = sum(a != b for a, b in pairwise(alive))
+    assert edges == 2 * 3 * BLINKS_PER_SECOND - 1
+    lit = sum(error[clock : 2 * clock])
+    assert clock // 8 <= lit <= clock // 4
+    assert not any(error[:clock])
+    assert all(error[2 * clock :])

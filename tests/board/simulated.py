@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from softdepth.config import Config
 from softdepth.hdl.boards import BoardTop
 from softdepth.hdl.serial.receiver import MIN_DIVISOR
 from softdepth.hdl.verilog import to_verilog
-from softdepth.sim.build import TOP, build
+from softdepth.sim.build import TOP, Build, build
 from tests.board.bridge import PLAN_VARIABLE
 
 DIVISOR = MIN_DIVISOR
@@ -46,11 +47,7 @@ def plugged_in(
 
     With `unplug` the port goes away when so many bytes have come from the host.
     """
-    program = build(
-        to_verilog(BoardTop(BOARD, config, "simulated", simulated=True), name=TOP),
-        inputs=("clk", "rx", "button"),
-        outputs=("tx", "led"),
-    )
+    program = _program(config)
     files = {name: str(folder / name) for name in ("ready", "stop", "record")}
     plan = {
         **files,
@@ -71,6 +68,15 @@ def plugged_in(
         simulator.join(START_SECONDS)
     assert Path(files["record"]).exists(), (folder / "log").read_text()
     board.record = json.loads(Path(files["record"]).read_text())
+
+
+@cache
+def _program(config: Config) -> Build:
+    return build(
+        to_verilog(BoardTop(BOARD, config, "simulated", simulated=True), name=TOP),
+        inputs=("clk", "rx", "button"),
+        outputs=("tx", "led"),
+    )
 
 
 def _simulate(program: Path, folder: Path) -> None:

@@ -53,28 +53,38 @@ class LineStore(wiring.Component):
         x, y = Signal(range(self._depth + 1)), Signal.like(self.height)
         self._write(m, write, x)
 
-        last = x + 1 == self.width
-        m.d.comb += [
+        # Comparisons have registers of their own: x and y stand still for two clocks at least.
+        last_column, last_row = Signal(), Signal()
+        m.d.sync += [
+            last_column.eq(x + 1 == self.width),
+            last_row.eq(y + 1 == self.height),
             self.complete.eq(y == self.height),
+        ]
+        m.d.comb += [
             read.addr.eq(x),
             Cat(self.o.payload.left, self.o.payload.right).eq(read.data),
-            self.o.payload.sof.eq((x == 0) & (y == 0)),
-            self.o.payload.eol.eq(last),
-            self.o.payload.eof.eq(last & (y + 1 == self.height)),
         ]
-        # Two clocks a pair, one to read it: the serial port is slower by far.
+        # Three clocks a pair: the serial port is slower by far.
         with m.FSM():
             with m.State("IDLE"), m.If(self.feed):
                 m.next = "READ"
             with m.State("READ"):
                 m.d.comb += self.busy.eq(1)
+                m.next = "MARK"
+            with m.State("MARK"):
+                m.d.comb += [self.busy.eq(1), read.en.eq(0)]
+                m.d.sync += [
+                    self.o.payload.sof.eq((x == 0) & (y == 0)),
+                    self.o.payload.eol.eq(last_column),
+                    self.o.payload.eof.eq(last_column & last_row),
+                ]
                 m.next = "OFFER"
             with m.State("OFFER"):
                 m.d.comb += [self.busy.eq(1), self.o.valid.eq(1), read.en.eq(0)]
                 with m.If(self.o.ready):
-                    m.d.sync += x.eq(Mux(last, 0, x + 1))
+                    m.d.sync += x.eq(Mux(last_column, 0, x + 1))
                     m.next = "READ"
-                    with m.If(last):
+                    with m.If(last_column):
                         m.d.sync += y.eq(y + 1)
                         m.next = "IDLE"
         with m.If(self.begin):

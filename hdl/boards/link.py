@@ -7,6 +7,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.hdl.boards.line_store import LineStore
+from softdepth.hdl.boards.outbox import Outbox
 from softdepth.hdl.boards.result_store import ResultStore
 from softdepth.hdl.boards.session import Session
 from softdepth.hdl.core import StereoCore
@@ -23,7 +24,7 @@ class SerialCore(wiring.Component):
     ::
 
         rx > receiver > parser > line store > core > result store > sender > transmitter > tx
-                          session: order, repetition, what to answer
+                          > session > outbox (what to answer)       >
 
     Parameters
     ----------
@@ -59,7 +60,9 @@ class SerialCore(wiring.Component):
         config = self._config
         m.submodules.receiver = receiver = UartReceiver(self._divisor)
         m.submodules.parser = parser = PacketParser()
-        m.submodules.session = session = Session(config, len(self._hello), COUNTERS.size)
+        m.submodules.session = session = Session(config)
+        lengths = {Type.HELLO: len(self._hello), Type.STATUS: COUNTERS.size, Type.REPEAT: 1, Type.ERROR: 1}
+        m.submodules.outbox = outbox = Outbox(config, lengths)
         m.submodules.sender = sender = PacketSender()
         m.submodules.transmitter = transmitter = UartTransmitter(self._divisor)
 
@@ -93,7 +96,7 @@ class SerialCore(wiring.Component):
             lines.width.eq(session.width),
             lines.height.eq(session.height),
             lines.begin.eq(session.begin),
-            lines.close.eq(parser.good | parser.bad),
+            lines.close.eq(session.receiving),
             lines.valid.eq(parser.payload_valid),
             lines.data.eq(parser.payload),
             lines.feed.eq(session.feed),
@@ -106,36 +109,40 @@ class SerialCore(wiring.Component):
             session.ready.eq(results.ready),
             session.slot.eq(results.slot),
             session.fault.eq(results.fault),
-            sender.start.eq(session.start),
-            sender.type.eq(session.reply.type),
-            sender.sequence.eq(session.reply_sequence),
-            sender.length.eq(session.reply_length),
-            session.sending.eq(sender.busy),
+            outbox.post.eq(session.post),
+            outbox.i.eq(session.letter),
+            outbox.width.eq(session.width),
+            outbox.sending.eq(sender.busy),
+            session.full.eq(outbox.full),
+            sender.start.eq(outbox.start),
+            sender.type.eq(outbox.o.reply.type),
+            sender.sequence.eq(outbox.o.sequence),
+            sender.length.eq(outbox.length),
             self.receiving.eq(session.receiving),
             self.troubled.eq(session.troubled),
             self.active.eq(session.active),
             self.fault.eq(results.fault),
         ]
         counters = Cat(session.counters, core.status)
-        self._payload(m, session, sender, results, counters)
+        self._payload(m, outbox, sender, results, counters)
         return m
 
     def _payload(
-        self, m: Module, session: Session, sender: PacketSender, results: ResultStore, counters: Cat
+        self, m: Module, outbox: Outbox, sender: PacketSender, results: ResultStore, counters: Cat
     ) -> None:
         """The payload's byte that the sender is at. A byte's time is long enough to read a memory."""
         m.submodules.hello = hello = Memory(shape=8, depth=len(self._hello), init=list(self._hello))
         text = hello.read_port()
         frozen = Signal(8 * COUNTERS.size)  # the counters go on meanwhile
-        with m.If(session.start):
+        with m.If(outbox.start):
             m.d.sync += frozen.eq(counters)
         m.d.comb += [
             text.addr.eq(sender.index),
-            results.read_slot.eq(session.reply.slot),
+            results.read_slot.eq(outbox.o.reply.slot),
             results.index.eq(sender.index - ROW.size),
         ]
-        row = session.reply.row.word_select(sender.index[0], 8)
-        with m.Switch(session.reply.type):
+        row = outbox.o.reply.row.word_select(sender.index[0], 8)
+        with m.Switch(outbox.o.reply.type):
             with m.Case(REPLY | Type.HELLO):
                 m.d.comb += sender.data.eq(text.data)
             with m.Case(REPLY | Type.LINE, REPLY | Type.FETCH):
@@ -145,4 +152,4 @@ class SerialCore(wiring.Component):
                     frozen.word_select(sender.index[: (COUNTERS.size - 1).bit_length()], 8)
                 )
             with m.Default():
-                m.d.comb += sender.data.eq(session.note)
+                m.d.comb += sender.data.eq(outbox.o.note)

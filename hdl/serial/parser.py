@@ -54,7 +54,11 @@ class PacketParser(wiring.Component):
         byte = Signal(8)
         header = Signal(8 * HEADER.size)
         ended = count != 0
-        whole = (count == self.length + (HEADER.size + CRC_BYTES)) & crc.match_detected & ~spoilt & ~escaped
+        # A byte comes every few clocks at most, so that what is known of those before may take one.
+        whole = Signal()
+        m.d.sync += whole.eq(
+            (count == self.length + (HEADER.size + CRC_BYTES)) & crc.match_detected & ~spoilt & ~escaped
+        )
         m.d.comb += [
             byte.eq(Mux(escaped, self.data ^ TOGGLE, self.data)),
             crc.data.eq(byte),

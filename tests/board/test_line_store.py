@@ -37,6 +37,7 @@ def test_lines_become_a_frame(ready_every):
         ctx.set(dut.height, HEIGHT)
         for _ in range(2):  # a second frame is like the first
             await pulse(ctx, dut.begin)
+            await ctx.tick()
             for line in frame:
                 assert not ctx.get(dut.complete)
                 await pulse(ctx, dut.close)
@@ -52,6 +53,7 @@ def test_lines_become_a_frame(ready_every):
                     )
                     if valid and ready:
                         taken.append((pair.left, pair.right, pair.sof, pair.eol, pair.eof))
+            await ctx.tick()
             assert ctx.get(dut.complete)
 
     simulate(dut, bench)
@@ -106,11 +108,11 @@ def test_bytes_beyond_the_longest_line_are_left_out():
         ctx.set(dut.height, 1)
         await fill(ctx, dut, line + bytes(300))
         await pulse(ctx, dut.feed)
-        await ctx.tick()
+        await ctx.tick().repeat(2)
         ctx.set(dut.o.ready, 1)
         for place in range(0, len(line), PAIR_BYTES):
             assert ctx.get(dut.o.payload.left).to_bytes(3, "little") == line[place : place + 3]
-            await ctx.tick().repeat(2)
+            await ctx.tick().repeat(3)
         assert not ctx.get(dut.busy)
 
     simulate(dut, bench)

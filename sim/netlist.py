@@ -3,12 +3,10 @@
 import copy
 import json
 import tempfile
-from collections.abc import Sequence
 from pathlib import Path
 
-from softdepth.config import Config
 from softdepth.errors import ToolError
-from softdepth.flow.synthesis import SCOPE, Netlist, NetlistPass, synthesise
+from softdepth.flow.synthesis import SCOPE, Netlist
 from softdepth.flow.synthesis import TOP as SYNTHESISED
 from softdepth.flow.tools import Tool, find_tool, share_folder
 from softdepth.sim.build import TOP
@@ -18,17 +16,6 @@ YOSYS_MODELS = ("common_sim.vh", "ccu2c_sim.vh")
 
 OWN_MODELS = Path(__file__).parent / "models"
 """Models of the cells that yosys knows by their ports alone: block RAM and multiplier."""
-
-
-def core_netlist(config: Config, *, passes: Sequence[NetlistPass] | None = None) -> Netlist:
-    """The core of a configuration, mapped to ECP5 cells as a bitstream's would be, after all passes.
-
-    Raises `ToolError` where yosys is missing or fails.
-    """
-    from softdepth.hdl.core import StereoCore  # elaboration is slow to import
-
-    with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
-        return synthesise(StereoCore(config), "ecp5", Path(folder), passes=passes)
 
 
 def netlist_verilog(netlist: Netlist) -> str:
@@ -46,7 +33,7 @@ def netlist_verilog(netlist: Netlist) -> str:
             f"read_json netlist.json; rename {SYNTHESISED} {TOP}; select {TOP};"
             " write_verilog -noattr -selected netlist.v"
         )
-        yosys.run(["-q", "-l", "yosys.log", "-p", script], folder)
+        yosys.run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
         text = (folder / "netlist.v").read_text()
     return "\n".join([text, *_models(yosys)])
 

@@ -22,6 +22,7 @@ _PORT = re.compile(r"^  wire .*\b(?:input|output|inout) \d+ .*?([\\$]\S+)$", re.
 _CONNECT = re.compile(r"^(    connect )(\S+)", re.MULTILINE)
 _PLACE = re.compile(r"^ *attribute \\(?:src|generator) .*\n", re.MULTILINE)
 _NAME = re.compile(r"[\\$]\S+")
+_ELEMENT = re.compile(r"\\[^\s\"]*\[[^\s\"]*")
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ def share(rtlil: str, *, smallest: int = SMALLEST_KEPT) -> str:
     rtlil : the text of a design as Amaranth writes it; its top module has the attribute ``top``.
     smallest : modules of fewer cells, submodules included, are left to be flattened.
     """
+    # In a module that is mapped by itself, yosys' ABC9 takes a wire called `a[3]` for bit 3 of port `a`.
+    rtlil = _ELEMENT.sub(lambda name: name[0].replace("[", ":").replace("]", ""), rtlil)
     texts = {match[1]: match[0] for match in _MODULE.finditer(rtlil)}
     top = next((name for name, text in texts.items() if _TOP.match(text)), None)
     if top is None:

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import tempfile
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -11,6 +12,7 @@ from amaranth.back import rtlil
 from amaranth.lib.wiring import Component
 
 from softdepth.boards import Family
+from softdepth.config import Config
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
@@ -76,12 +78,20 @@ def synthesise(
     command = " ".join((COMMANDS[family], *options))
     script = f"read_rtlil design.il; {command}; {_JOIN}; write_json mapped.json"
     # The packaged yosys may lose what it prints, but not what it logs.
-    find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder)
+    find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
     netlist = json.loads((folder / "mapped.json").read_text())
     for each in PASSES[family] if passes is None else passes:
         each(netlist)
     (folder / "netlist.json").write_text(json.dumps(netlist))
     return netlist
+
+
+def core_netlist(config: Config, *, passes: Sequence[NetlistPass] | None = None) -> Netlist:
+    """The ECP5 netlist of a core alone, after all passes; raises as `synthesise` does."""
+    from softdepth.hdl.core import StereoCore  # elaboration is slow to import
+
+    with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
+        return synthesise(StereoCore(config), "ecp5", Path(folder), passes=passes)
 
 
 def cells(netlist: Netlist) -> Counter[str]:

@@ -52,8 +52,8 @@ class Tool:
     command: tuple[str, ...]
     version: str
 
-    def run(self, arguments: Sequence[str], folder: Path) -> str:
-        """Run it in `folder` and return what it printed.
+    def run(self, arguments: Sequence[str], folder: Path, *, log: str | None = None) -> str:
+        """Run it in `folder` and return what it said: what it printed, or wrote to the file `log` there.
 
         Arguments name files relative to `folder`: the packaged programs see a ``/tmp`` of their own.
         Raises `ToolError` with the program's first error where it fails; the log stays in the cache.
@@ -68,12 +68,15 @@ class Tool:
             errors="replace",
             check=False,
         )
+        said = done.stdout
+        if log is not None and (folder / log).exists():
+            said += (folder / log).read_text(errors="replace")
         if done.returncode:
             kept = cache_folder() / "flow" / f"{self.name}.log"
             kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(done.stdout)
-            raise ToolRunError(self.name, done.stdout, kept)
-        return done.stdout
+            kept.write_text(said)
+            raise ToolRunError(self.name, said, kept)
+        return said
 
 
 class ToolRunError(ToolError):

@@ -1,6 +1,6 @@
 """Argmin over fractions, compared exactly (Bobyr et al. 2021, step 5, eq. 11)."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal, ValueLike
+from amaranth.hdl import Cat, Module, Mux, Shape, ShapeLike, Signal, ValueLike, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -20,6 +20,13 @@ class FractionMin(wiring.Component):
     multiplications, no division, nothing rounded. An excluded candidate loses against any other.
     One pair a clock.
 
+    Parameters
+    ----------
+    layout : of the candidates.
+    halves : ``a`` and ``b`` come from the lower and the upper half of a range whose excluded
+        candidates are all at its upper end. Indices then count within each half, and the result's
+        has one bit more. This takes less logic: a tie is ``a``'s, and so is the exclusion.
+
     Members
     -------
     a, b : the candidates.
@@ -28,15 +35,21 @@ class FractionMin(wiring.Component):
 
     latency = 2
 
-    def __init__(self, layout: data.StructLayout) -> None:
+    def __init__(self, layout: data.StructLayout, *, halves: bool = False) -> None:
         self._layout = layout
-        super().__init__({"a": In(layout), "b": In(layout), "o": Out(layout)})
+        self._halves = halves
+        best = layout
+        if halves:
+            members = dict(layout.members)
+            members["index"] = unsigned(Shape.cast(members["index"]).width + 1)
+            best = data.StructLayout(members)
+        super().__init__({"a": In(layout), "b": In(layout), "o": Out(best)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         a = Signal(self._layout, reset_less=True)
         b = Signal(self._layout, reset_less=True)
-        best = Signal(self._layout, reset_less=True)
+        best = Signal(self.o.shape(), reset_less=True)
         left: ValueLike
         right: ValueLike
         if len(self.a.den):
@@ -46,12 +59,22 @@ class FractionMin(wiring.Component):
             m.d.sync += [left.eq(self.a.num * self.b.den), right.eq(self.b.num * self.a.den)]
         else:
             left, right = a.num, b.num
-        a_wins = Signal()
-        m.d.comb += a_wins.eq((left < right) | ((left == right) & (a.index < b.index)))
+        b_wins = Signal()
+        index: ValueLike
+        if self._halves:
+            m.d.comb += b_wins.eq((right < left) & ~b.excluded)
+            index = Cat(Mux(b_wins, b.index, a.index), b_wins)
+        else:
+            b_better = (right < left) | ((right == left) & (b.index < a.index))
+            m.d.comb += b_wins.eq(~b.excluded & (a.excluded | b_better))
+            index = Mux(b_wins, b.index, a.index)
         m.d.sync += [
             a.eq(self.a),
             b.eq(self.b),
-            best.eq(Mux(b.excluded | (a_wins & ~a.excluded), a, b)),
+            best.num.eq(Mux(b_wins, b.num, a.num)),
+            best.den.eq(Mux(b_wins, b.den, a.den)),
+            best.excluded.eq(a.excluded & b.excluded),
+            best.index.eq(index),
         ]
         m.d.comb += self.o.eq(best)
         return m
@@ -62,35 +85,41 @@ class ArgminTree(wiring.Component):
 
     Members
     -------
-    i : the candidates, by ascending index.
-    o : the best, `latency` clocks later.
+    i : the candidates, by ascending index: `candidate_layout` of one index. The excluded ones are the
+        last.
+    o : the best, `latency` clocks later, and its place.
     """
 
-    def __init__(self, layout: data.StructLayout, count: int) -> None:
-        self._layout = layout
+    def __init__(self, num: ShapeLike, den: ShapeLike, count: int) -> None:
+        self._leaf = candidate_layout(num, den, 1)
         self._count = count
         self.latency = FractionMin.latency * (count - 1).bit_length()
-        super().__init__({"i": In(data.ArrayLayout(layout, count)), "o": Out(layout)})
+        super().__init__(
+            {"i": In(data.ArrayLayout(self._leaf, count)), "o": Out(candidate_layout(num, den, count))}
+        )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        level = [self.i[k] for k in range(self._count)]
+        level: list[data.View] = [self.i[k] for k in range(self._count)]
         while len(level) > 1:
-            following = []
+            following: list[data.View] = []
             for k in range(0, len(level) - 1, 2):
-                node = FractionMin(self._layout)
+                node = FractionMin(level[k].shape(), halves=True)
                 m.submodules[f"node_{len(level)}_{k}"] = node
                 m.d.comb += [node.a.eq(level[k]), node.b.eq(level[k + 1])]
                 following.append(node.o)
             if len(level) % 2:
+                # The last one has no rival on this level: it is the lower half of its range.
                 waiting = level[-1]
                 for stage in range(FractionMin.latency):
-                    register = Signal(self._layout, name=f"wait_{len(level)}_{stage}", reset_less=True)
-                    m.d.sync += register.eq(waiting)
+                    register = Signal(
+                        following[0].shape(), name=f"wait_{len(level)}_{stage}", reset_less=True
+                    )
+                    m.d.sync += [register[name].eq(waiting[name]) for name in self._leaf.members]
                     waiting = register
                 following.append(waiting)
             level = following
-        m.d.comb += self.o.eq(level[0])
+        m.d.comb += [self.o[name].eq(level[0][name]) for name in self._leaf.members]
         return m
 
 

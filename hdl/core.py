@@ -9,7 +9,9 @@ from softdepth.config import Config
 from softdepth.hdl.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.cost import fraction_layout
 from softdepth.hdl.delay import Delay
+from softdepth.hdl.exclusion import Exclusion
 from softdepth.hdl.frame_guard import FrameGuard
+from softdepth.hdl.item_queue import ItemQueue
 from softdepth.hdl.lane import Lane, column_layout
 from softdepth.hdl.line_buffer import LineBuffer
 from softdepth.hdl.pipeline import Pipeline, Word, travelling
@@ -27,7 +29,7 @@ class StereoCore(wiring.Component):
 
     ::
 
-        i > frame guard > sequencer > line buffer > right columns > lanes > argmin > results > o
+        i > frame guard > queue > sequencer > line buffer > right columns > lanes > argmin > results > o
 
     Throughput is one result every `Config.steps` clocks, without a pause between lines or frames.
     The pipeline itself never stalls: a pixel is admitted when its result has a place in the result
@@ -47,9 +49,8 @@ class StereoCore(wiring.Component):
         self._lanes = [Lane(config) for _ in range(config.lanes)]
         lane = self._lanes[0]
         num, den = (fraction_layout(config)[name].shape for name in ("num", "den"))
-        self._leaf = candidate_layout(num, den, config.lanes)
         self._best = candidate_layout(num, den, config.disparities)
-        self._tree = ArgminTree(self._leaf, config.lanes)
+        self._tree = ArgminTree(num, den, config.lanes)
         self._sequence = ArgminSequence(self._best, config.steps)
 
         # Clocks after the one in which the pixel is taken.
@@ -76,7 +77,9 @@ class StereoCore(wiring.Component):
         m.submodules.guard = guard = FrameGuard(config)
         m.submodules.sequencer = sequencer = Sequencer(config)
         wiring.connect(m, wiring.flipped(self.i), guard.i)
-        wiring.connect(m, guard.o, sequencer.i)
+        m.submodules.queue = queue = ItemQueue(config)
+        wiring.connect(m, guard.o, queue.i)
+        wiring.connect(m, queue.o, sequencer.i)
         m.d.comb += self.status.eq(guard.status)
 
         # Bits that say what happens are reset; what they speak of is not. Both start at clock 1.
@@ -84,20 +87,22 @@ class StereoCore(wiring.Component):
         for name, source in {"valid": sequencer.valid, "emit": sequencer.emit}.items():
             occurs[name] = [source, *travelling(m, source, self._result_time - 1, name, since=1)]
         step = control.input(sequencer.step, config.steps - 1, time=1)
-        room = control.input(sequencer.room, config.disparities - 1, time=1)
+        first_of_line = control.input(sequencer.first_of_line, 1, time=1)
+        first_inner = control.input(sequencer.first_inner, 1, time=1)
 
-        m.submodules.lines = lines = LineBuffer(2 * PIXEL_BITS, config.min_height, config.max_width)
-        item = guard.o.payload
+        m.submodules.lines = lines = LineBuffer(2 * PIXEL_BITS, config.column_rows, config.max_width)
+        item = queue.o.payload
         column = column_layout(config)
         left, right = Signal(column), Signal(column)
         m.d.comb += [
             lines.en.eq(sequencer.load),
             lines.x.eq(item.x),
             lines.pixel.eq(Cat(item.left, item.right)),
-            left.eq(Cat(lines.column[r][:PIXEL_BITS] for r in range(config.min_height))),
-            right.eq(Cat(lines.column[r][PIXEL_BITS:] for r in range(config.min_height))),
+            left.eq(Cat(lines.column[r][:PIXEL_BITS] for r in range(config.column_rows))),
+            right.eq(Cat(lines.column[r][PIXEL_BITS:] for r in range(config.column_rows))),
         ]
 
+        step_1 = control.at(step, self._column_time - 1).value
         step_2 = control.at(step, self._column_time).value
         m.submodules.right = columns = RightColumns(config, column)
         m.d.comb += [
@@ -106,22 +111,33 @@ class StereoCore(wiring.Component):
             columns.column.eq(right),
         ]
 
+        # Where the step is in the line, all candidates counted.
+        place = Signal(range(config.places), reset_less=True)
+        with m.If(occurs["valid"][self._column_time - 1]):
+            m.d.sync += place.eq(place + 1)
+            with m.If(control.at(first_of_line, self._column_time - 1).value & (step_1 == 0)):
+                m.d.sync += place.eq(0)
+
         m.submodules.tree = self._tree
         near = self._near(m, control.at(step, self._criteria_time - 1))
-        excluded = self._excluded(
-            m, control.at(step, self._cost_time - 1), control.at(room, self._cost_time - 1)
-        )
+        m.submodules.exclusion = exclusion = Exclusion(config)
+        judged = self._cost_time - Exclusion.latency
+        m.d.comb += [
+            exclusion.valid.eq(occurs["valid"][judged]),
+            exclusion.first.eq(control.at(step, judged).value == 0),
+            exclusion.starts.eq(control.at(first_inner, judged).value),
+        ]
         for k, lane in enumerate(self._lanes):
             m.submodules[f"lane_{k}"] = lane
             m.d.comb += [
                 lane.valid.eq(occurs["valid"][self._column_time]),
+                lane.place.eq(place),
                 lane.left.eq(left),
                 lane.right.eq(columns.columns[k]),
                 lane.near.eq(near[k]),
                 self._tree.i[k].num.eq(lane.o.num),
                 self._tree.i[k].den.eq(lane.o.den),
-                self._tree.i[k].index.eq(k),
-                self._tree.i[k].excluded.eq(excluded[k]),
+                self._tree.i[k].excluded.eq(exclusion.lanes[k]),
             ]
 
         m.submodules.sequence = sequence = self._sequence
@@ -151,15 +167,6 @@ class StereoCore(wiring.Component):
             farthest = candidate(config, lane, 0)
             m.d.sync += near[lane].eq(step.value + config.compensation.min_disparity <= farthest)
         return near
-
-    def _excluded(self, m: Module, step: Word, room: Word) -> list[Signal]:
-        """For each lane, one clock after ``step``: its candidate's window leaves the other image."""
-        config = self._config
-        excluded = []
-        for lane in range(config.lanes):
-            excluded.append(Signal(name=f"excluded_{lane}", reset_less=True))
-            m.d.sync += excluded[lane].eq(candidate(config, lane, 0) > room.value + step.value)
-        return excluded
 
     def _results(self, m: Module, emit: Signal, tags: data.View, sequencer: Sequencer) -> None:
         """The result FIFO, and the credits that keep it from overflowing."""

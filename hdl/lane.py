@@ -13,8 +13,8 @@ CRITERIA = {"sad": SadCriteria}
 
 
 def column_layout(config: Config) -> data.ArrayLayout:
-    """A column of RGB pixels as high as the support, top first."""
-    return data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), config.min_height)
+    """The RGB pixels of a column that lanes compare: the support without its stored rows, top first."""
+    return data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), config.column_rows)
 
 
 class Lane(wiring.Component):
@@ -22,7 +22,7 @@ class Lane(wiring.Component):
 
     Members
     -------
-    valid : the columns are a step of a pixel.
+    valid, place : the columns are a step of a pixel, and which of the line's steps.
     left, right : the columns to compare.
     near : input of the cost, ``criteria_latency`` clocks after the columns.
     o : the candidate's cost, `latency` clocks after the columns.
@@ -40,6 +40,7 @@ class Lane(wiring.Component):
         super().__init__(
             {
                 "valid": In(1),
+                "place": In(range(config.places)),
                 "left": In(column_layout(config)),
                 "right": In(column_layout(config)),
                 "near": In(1),
@@ -55,6 +56,7 @@ class Lane(wiring.Component):
             m.submodules[kind] = block
             m.d.comb += [
                 block.valid.eq(self.valid),
+                block.place.eq(self.place),
                 block.left.eq(self.left),
                 block.right.eq(self.right),
             ]

@@ -5,7 +5,7 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
-from softdepth.hdl.frame_guard import item_layout
+from softdepth.hdl.item_queue import placed_layout
 from softdepth.validity import Validity
 
 
@@ -24,11 +24,12 @@ class Sequencer(wiring.Component):
 
     Members
     -------
-    i : items of well-formed frames.
+    i : items of well-formed frames, and their places.
     credit : there is room for another result at the far end of the pipeline.
     load : the pixel in ``i`` begins; its ``x`` and colours are valid in this clock only.
     valid, first, last, step : a step is taken; registered, one clock after ``load``.
-    room : candidates ``d <= room`` lie in the other image, for the steps of an inner pixel.
+    first_of_line : the step's pixel is its line's first.
+    first_inner : the step's pixel is its line's first whose support lies inside the image.
     emit, tags : a result leaves with this clock (a pixel's last step, or a drain), and its tags.
     issued : a result was promised in this clock: a credit is used.
     """
@@ -37,14 +38,15 @@ class Sequencer(wiring.Component):
         self._config = config
         super().__init__(
             {
-                "i": In(stream.Signature(item_layout(config))),
+                "i": In(stream.Signature(placed_layout(config))),
                 "credit": In(1),
                 "load": Out(1),
                 "valid": Out(1),
                 "first": Out(1),
                 "last": Out(1),
                 "step": Out(range(config.steps)),
-                "room": Out(range(config.disparities)),
+                "first_of_line": Out(1),
+                "first_inner": Out(1),
                 "emit": Out(1),
                 "tags": Out(tags_layout()),
                 "issued": Out(1),
@@ -57,7 +59,6 @@ class Sequencer(wiring.Component):
         item = self.i.payload
 
         # The frame that comes in.
-        support_x = config.reach_left + config.reach_right
         support_y = 2 * config.reach_rows
         y = Signal(range(support_y + 1))  # stops counting at the first row with inner pixels
         room = Signal(range(config.disparities))  # stops counting at the last candidate
@@ -78,7 +79,7 @@ class Sequencer(wiring.Component):
         own = Signal()
         ends = Signal()
         m.d.comb += [
-            starts.eq(~item.end & ~started & (row == config.reach_rows) & (item.x == config.reach_right)),
+            starts.eq(~item.end & ~started & (row == config.reach_rows) & item.completes),
             own.eq(started | starts),
             ends.eq(item.eof | item.end),
         ]
@@ -105,13 +106,13 @@ class Sequencer(wiring.Component):
         begins = Signal()  # `starts`, and the frame before is out of the way
         m.d.comb += [
             begins.eq(starts & ~draining),
-            inner.eq(own & (row == support_y) & (item.x >= support_x)),
+            inner.eq(own & (row == support_y) & item.inner),
             first_out.eq(fresh | begins),
             last_out_x.eq(Mux(begins, width, out_width)),
             at_x.eq(Mux(begins, 0, out_x)),
         ]
         room_now = Signal.like(room)
-        m.d.comb += room_now.eq(Mux(item.x == support_x, 0, room))
+        m.d.comb += room_now.eq(Mux(item.first_inner, 0, room))
         tags = Signal(tags_layout(), reset_less=True)
         emit = Signal()
         drain = Signal()
@@ -137,8 +138,12 @@ class Sequencer(wiring.Component):
                     m.d.sync += draining.eq(0)
 
         with m.If(self.load):
-            m.d.sync += [self.room.eq(room_now), emit.eq(emits)]
-            with m.If((item.x >= support_x) & (room_now != config.disparities - 1)):
+            m.d.sync += [
+                self.first_of_line.eq(item.first),
+                self.first_inner.eq(item.first_inner),
+                emit.eq(emits),
+            ]
+            with m.If(item.inner & (room_now != config.disparities - 1)):
                 m.d.sync += room.eq(room_now + 1)
             with m.If(starts):
                 m.d.sync += started.eq(1)

@@ -105,6 +105,7 @@ class Config(_Frozen):
         default=(Sad(window=3), Sad(window=5), Sad(window=7)), strict=False
     )
     compensation: Compensation = Compensation()
+    stored_rows: int = Field(default=0, ge=0)
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -123,6 +124,11 @@ class Config(_Frozen):
             raise ValueError(
                 "all windows are 1, but the core needs a support of more than one row: use a window of 3"
                 " or more in one criterion"
+            )
+        if self.stored_rows > 2 * self.reach_rows:
+            raise ValueError(
+                f"stored_rows is {self.stored_rows}, but a window of {self.min_height} rows has"
+                f" {2 * self.reach_rows} above its newest: use at most that many"
             )
         if self.multipliers > self.max_multipliers:
             raise ValueError(
@@ -262,6 +268,16 @@ class Config(_Frozen):
     def min_height(self) -> int:
         """The lowest frame with a result: one full support. Lower frames yield border codes only."""
         return 2 * self.reach_rows + 1
+
+    @property
+    def column_rows(self) -> int:
+        """Rows that lanes compare anew: the support's height without the `stored_rows`."""
+        return self.min_height - self.stored_rows
+
+    @property
+    def places(self) -> int:
+        """Steps of the longest line: the columns that a lane sees, candidates counted apart."""
+        return self.max_width * self.steps
 
     # -- derived: numbers of the fuzzy stage -----------------------------------------------------
 

@@ -1,6 +1,6 @@
 """The absolute differences of one column, summed for each window height."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from amaranth.hdl import Const, Module, Value
@@ -9,7 +9,8 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS
 from softdepth.hdl.adders import Field, add_fields
-from softdepth.hdl.pipeline import Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.pipeline import LEVELS, Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.row_memory import RowMemory
 
 CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
 ROW_OPERATIONS = 3
@@ -46,49 +47,87 @@ class ColumnSad(wiring.Component):
 
     ``|a - b|`` is ``a - b`` or its negation, which is one's complement and a 1. The complement is
     taken at the input of the adder that follows, and the 1 is that adder's carry, so that an absolute
-    difference costs one subtraction: a column of n rows has one adder fewer than 3n differences, and
-    one row computes a difference in full to make up for it.
+    difference costs one subtraction. A row whose last 1 no adder takes computes a difference in full.
 
     Parameters
     ----------
     windows : window heights in ascending order, all odd.
+    stored_rows : rows whose costs come from memory. They are the upper ones: each was computed when
+        it was lower in the column.
+    places : columns of the longest line, times candidates of a pixel.
 
     Members
     -------
-    left, right : the columns to compare, as high as the largest window, top first.
+    valid, place : a column is there, and which of the line's, candidates counted apart.
+    left, right : the columns to compare, top first, without the stored rows.
     o : ``c3, c5, ...``: the cost of the middle 3, 5, ... rows, `latency` clocks later.
     """
 
-    def __init__(self, windows: Sequence[int]) -> None:
+    def __init__(self, windows: Sequence[int], stored_rows: int = 0, places: int = 1) -> None:
         self._windows = windows
-        self._operations = _operations(windows)
-        self.latency = clocks(self._operations)
-        column = data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), windows[-1])
+        self._stored = stored_rows
+        self._places = places
+        # The rows from memory come at a fixed clock, and the computed ones with them. Without any, the
+        # first operation is as late as it can be for the last to end in a register.
+        sums = _sum_operations(windows)
+        ready = RowMemory.latency * LEVELS if stored_rows else start(ROW_OPERATIONS + sums) + ROW_OPERATIONS
+        self._begin = ready - ROW_OPERATIONS
+        self.latency = clocks(ready + sums)
+        column = data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), windows[-1] - stored_rows)
         costs = {f"c{w}": range(column_maximum(w) + 1) for w in windows}
-        super().__init__({"left": In(column), "right": In(column), "o": Out(data.StructLayout(costs))})
+        super().__init__(
+            {
+                "valid": In(1),
+                "place": In(range(places)),
+                "left": In(column),
+                "right": In(column),
+                "o": Out(data.StructLayout(costs)),
+            }
+        )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        middle = self._windows[-1] // 2
+        rows = self._rows(m, pipeline)
         total: Summand | None = None
         inner = -1  # the largest row offset that is summed already
         for window in self._windows:
             radius = window // 2
-            offsets = [offset for offset in range(-radius, radius + 1) if abs(offset) > inner]
-            inner = radius
-            summands = _rows(
-                pipeline,
-                start(self._operations),
-                [(self.left[middle + offset], self.right[middle + offset]) for offset in offsets],
-                exact_first=total is None,
+            ring = pipeline.tree(
+                lambda a, b: _add(pipeline, a, b),
+                [row for offset, row in rows.items() if inner < abs(offset) <= radius],
             )
-            ring = pipeline.tree(lambda a, b: _add(pipeline, a, b), summands)
+            inner = radius
             total = ring if total is None else _add(pipeline, total, ring)
             assert total.missing is None
-            cost = pipeline.at(total.word, start(self._operations) + self._operations)
+            cost = pipeline.at(total.word, self.latency * LEVELS)
             m.d.comb += self.o[f"c{window}"].eq(cost.value)
         return m
+
+    def _rows(self, m: Module, pipeline: Pipeline) -> dict[int, Summand]:
+        """The cost of each row, by its offset from the middle."""
+        radius = self._windows[-1] // 2
+        newest = self._stored - radius  # of the rows that are remembered: the uppermost computed one
+        offsets = range(newest, radius + 1)
+        # What is remembered must be complete, and so must one row of the innermost window.
+        innermost = self._windows[0] // 2
+        complete = {newest} if self._stored else set()
+        if newest < -innermost or not complete:
+            complete.add(-innermost)
+        pixels = {o: (self.left[k], self.right[k]) for k, o in enumerate(offsets)}
+        rows = _row_costs(pipeline, self._begin, pixels, complete)
+        if self._stored:
+            shape = range(column_maximum(1) + 1)
+            m.submodules.memory = memory = RowMemory(shape, self._stored, self._places)
+            time = RowMemory.latency * LEVELS
+            m.d.comb += [
+                memory.valid.eq(self.valid),
+                memory.place.eq(self.place),
+                memory.newest.eq(pipeline.at(rows[newest].word, time).value),
+            ]
+            for k, offset in enumerate(range(-radius, newest)):
+                rows[offset] = Summand(pipeline.input(memory.rows[k], column_maximum(1), time=time))
+        return rows
 
 
 def column_maximum(window: int) -> int:
@@ -96,39 +135,41 @@ def column_maximum(window: int) -> int:
     return window * CHANNELS * CHANNEL_MAXIMUM
 
 
-def _operations(windows: Sequence[int]) -> int:
-    """Operations in a row that the column costs take."""
-    latency, inner = 0, 0
+def _sum_operations(windows: Sequence[int]) -> int:
+    """Operations in a row from the costs of the rows to those of the column."""
+    operations, inner = 0, 0
     for window in windows:
-        added = ROW_OPERATIONS + tree_latency(window - inner)
-        latency = max(latency, added) + 1 if inner else added
+        ring = tree_latency(window - inner)
+        operations = max(operations, ring) + 1 if inner else ring
         inner = window
-    return latency
+    return operations
 
 
-def _rows(
-    pipeline: Pipeline, time: int, pixels: Sequence[tuple[Value, Value]], exact_first: bool
-) -> list[Summand]:
-    """The cost of each row. The first is complete at once if it must be."""
-    rows = [_differences(pipeline, time, left, right) for left, right in pixels]
+def _row_costs(
+    pipeline: Pipeline, time: int, pixels: Mapping[int, tuple[Value, Value]], complete: Container[int]
+) -> dict[int, Summand]:
+    """The cost of each row of pixels. Those that must be ``complete`` lack no 1."""
+    rows = {offset: _differences(pipeline, time, *pair) for offset, pair in pixels.items()}
     # Two inverted operands do not fit into a carry cell of ECP5, two complements of them do: the
     # complement of x + y + carry is the sum of their complements and the carry's.
-    pairs = [_complement(red, green) for red, green, _ in rows]
-    if exact_first:
-        pairs.append(_complement(rows[0][2]))
-    sums = [
-        replace(word, value=~word.value, maximum=2 * CHANNEL_MAXIMUM) for word in add_fields(pipeline, pairs)
-    ]
-    triples = [
-        Field(pair, blue.magnitude(pipeline, pair.time), pipeline.at(green.sign, pair.time))
-        for pair, (_, green, blue) in zip(sums, rows, strict=False)
-    ]
-    if exact_first:
-        triples[0] = replace(triples[0], b=sums[-1])
-    return [
-        Summand(row, None if exact_first and i == 0 else rows[i][2].sign)
-        for i, row in enumerate(add_fields(pipeline, triples))
-    ]
+    first = {(offset, 0): _complement(red, green) for offset, (red, green, _) in rows.items()}
+    first |= {(offset, 1): _complement(row[2]) for offset, row in rows.items() if offset in complete}
+    sums = {
+        key: replace(word, value=~word.value, maximum=2 * CHANNEL_MAXIMUM)
+        for key, word in zip(first, add_fields(pipeline, list(first.values())), strict=True)
+    }
+    second = []
+    for offset, (_, green, blue) in rows.items():
+        pair = sums[offset, 0]
+        whole = sums.get((offset, 1), blue.magnitude(pipeline, pair.time))
+        second.append(Field(pair, whole, pipeline.at(green.sign, pair.time)))
+    return {
+        offset: Summand(
+            replace(word, maximum=column_maximum(1)),
+            None if offset in complete else rows[offset][2].sign,
+        )
+        for offset, word in zip(rows, add_fields(pipeline, second), strict=True)
+    }
 
 
 def _differences(pipeline: Pipeline, time: int, left: Value, right: Value) -> list[Difference]:

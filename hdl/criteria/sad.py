@@ -27,8 +27,8 @@ class SadCriteria(wiring.Component):
 
     Members
     -------
-    valid : the columns are a step of a pixel.
-    left, right : the columns to compare, ``2 * reach_rows + 1`` pixels from the top.
+    valid, place : the columns are a step of a pixel, and which of the line's steps.
+    left, right : the columns to compare, `Config.column_rows` pixels from the top.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
         `Config.reach_right` columns before the one that entered.
     """
@@ -37,14 +37,15 @@ class SadCriteria(wiring.Component):
         self._config = config
         self._criteria = criteria
         self._windows = sorted({criterion.window for criterion in criteria})
-        self._column = ColumnSad(self._windows)
+        self._column = ColumnSad(self._windows, config.stored_rows, config.places)
         self._boxes = {w: BoxSum(column_maximum(w), w, config.steps) for w in self._windows}
         self.latency = self._column.latency + max(box.latency for box in self._boxes.values())
         pixel = data.ArrayLayout(CHANNEL_BITS, CHANNELS)
-        column = data.ArrayLayout(pixel, config.min_height)
+        column = data.ArrayLayout(pixel, config.column_rows)
         super().__init__(
             {
                 "valid": In(1),
+                "place": In(range(config.places)),
                 "left": In(column),
                 "right": In(column),
                 "o": Out(data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(criteria)})),
@@ -58,7 +59,12 @@ class SadCriteria(wiring.Component):
 
         sums: dict[int, Word] = {}
         m.submodules.column = column = self._column
-        m.d.comb += [column.left.eq(self.left), column.right.eq(self.right)]
+        m.d.comb += [
+            column.valid.eq(self.valid),
+            column.place.eq(self.place),
+            column.left.eq(self.left),
+            column.right.eq(self.right),
+        ]
         for window in self._windows:
             m.submodules[f"box_{window}"] = box = self._boxes[window]
             m.d.comb += [box.valid.eq(valid[column.latency]), box.i.eq(column.o[f"c{window}"])]

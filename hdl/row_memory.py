@@ -1,0 +1,69 @@
+"""A candidate's row costs of the lines before, in block RAM."""
+
+from amaranth.hdl import Cat, Module, ShapeLike, Signal
+from amaranth.lib import data, wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+
+class RowMemory(wiring.Component):
+    """Remembers the costs that a lane computed at the same place of the last ``rows`` lines.
+
+    What a window's rows cost at a column and a candidate was computed once already, when each of
+    them was the newest row that the lane looks at. Kept here it need not be computed again. Rows from
+    before the frame hold stale costs, which only border results see.
+
+    Parameters
+    ----------
+    shape : of a row's cost.
+    rows : lines to remember.
+    places : pixels of the longest line, times candidates of a pixel. At least 3 are in use.
+
+    Members
+    -------
+    valid, place : a place is looked up.
+    newest : its cost on the newest line, `latency` clocks later; it is remembered.
+    rows : and on the lines before, oldest first, in the same clock as ``newest``.
+    """
+
+    latency = 2
+
+    def __init__(self, shape: ShapeLike, rows: int, places: int) -> None:
+        self._layout = data.ArrayLayout(shape, rows)
+        self._places = places
+        super().__init__(
+            {
+                "valid": In(1),
+                "place": In(range(places)),
+                "newest": In(shape),
+                "rows": Out(self._layout),
+            }
+        )
+
+    @property
+    def bits(self) -> int:
+        """Bits of memory."""
+        return self._layout.size * self._places
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.costs = costs = Memory(shape=self._layout, depth=self._places, init=[])
+        read = costs.read_port()
+        write = costs.write_port()
+        rows = Signal(self._layout, reset_less=True)
+        valid = Signal()
+        place = Signal(range(self._places), reset_less=True)
+        m.d.comb += [
+            read.en.eq(self.valid),
+            read.addr.eq(self.place),
+            self.rows.eq(rows),
+            write.data.as_value().eq(Cat(*(rows[k] for k in range(1, self._layout.length)), self.newest)),
+        ]
+        m.d.sync += [
+            valid.eq(self.valid),
+            place.eq(self.place),
+            rows.eq(read.data),
+            write.en.eq(valid),
+            write.addr.eq(place),
+        ]
+        return m

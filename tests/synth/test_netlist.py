@@ -1,0 +1,61 @@
+"""The synthesised netlist computes what the fixed model does, and a netlist with one wrong bit does not."""
+
+import copy
+
+import pytest
+
+from softdepth.errors import ToolError
+from softdepth.flow.synthesis import TOP, Netlist, cells
+from softdepth.golden import datasets, fixed_model
+from softdepth.sim.compare import Mismatch, mismatches
+from softdepth.sim.frames import run_frames
+from softdepth.sim.netlist import netlist_verilog
+from tests.synth.conftest import SMALL
+
+CROP = (slice(200, 224), slice(300, 364))
+"""Rows and columns of Motorcycle: edges at several depths."""
+
+
+def compare(netlist: Netlist) -> list[Mismatch]:
+    """Where a netlist of `SMALL` differs from the fixed model on a crop of a real image."""
+    pair = datasets.load("motorcycle")
+    left, right = pair.left[CROP], pair.right[CROP]
+    expected = fixed_model.disparity(left, right, SMALL)
+    assert len(set(expected.disparity.ravel().tolist())) == SMALL.disparities, "the crop is too plain"
+    found = run_frames(SMALL, [(left, right)], verilog=netlist_verilog(netlist))
+    return list(mismatches([expected], found.maps))
+
+
+@pytest.mark.slow
+def test_the_netlist_equals_the_fixed_model(small_netlist):
+    assert compare(small_netlist) == []
+
+
+@pytest.mark.slow
+def test_the_netlist_holds_every_kind_of_cell(small_netlist):
+    """What is simulated is the mapped design, hard blocks included."""
+    found = cells(small_netlist)
+    assert {"LUT4", "CCU2C", "TRELLIS_FF", "DP16KD", "MULT18X18D"} <= set(found)
+    assert not [kind for kind in found if kind.startswith("$")]
+
+
+@pytest.mark.slow
+def test_one_wrong_bit_in_a_lookup_table_is_found(small_netlist):
+    broken = copy.deepcopy(small_netlist)
+    name, cell = next(
+        (name, cell)
+        for name, cell in sorted(broken["modules"][TOP]["cells"].items())
+        if name.startswith("lane_0.cost") and cell["type"] == "CCU2C"
+    )
+    table = cell["parameters"]["INIT0"]
+    cell["parameters"]["INIT0"] = table[:-1] + ("0" if table[-1] == "1" else "1")
+    assert compare(broken), f"table of {name}"
+
+
+@pytest.mark.slow
+def test_initial_values_in_block_ram_are_refused(small_netlist):
+    filled = copy.deepcopy(small_netlist)
+    memory = next(c for c in filled["modules"][TOP]["cells"].values() if c["type"] == "DP16KD")
+    memory["parameters"]["INITVAL_07"] = "1" + memory["parameters"]["INITVAL_07"][1:]
+    with pytest.raises(ToolError, match="has initial values"):
+        netlist_verilog(filled)

@@ -60,10 +60,7 @@ class LineStore(wiring.Component):
             last_row.eq(y + 1 == self.height),
             self.complete.eq(y == self.height),
         ]
-        m.d.comb += [
-            read.addr.eq(x),
-            Cat(self.o.payload.left, self.o.payload.right).eq(read.data),
-        ]
+        m.d.comb += read.addr.eq(x)
         # Three clocks a pair: the serial port is slower by far.
         with m.FSM():
             with m.State("IDLE"), m.If(self.feed):
@@ -72,15 +69,16 @@ class LineStore(wiring.Component):
                 m.d.comb += self.busy.eq(1)
                 m.next = "MARK"
             with m.State("MARK"):
-                m.d.comb += [self.busy.eq(1), read.en.eq(0)]
+                m.d.comb += self.busy.eq(1)
                 m.d.sync += [
+                    Cat(self.o.payload.left, self.o.payload.right).eq(read.data),
                     self.o.payload.sof.eq((x == 0) & (y == 0)),
                     self.o.payload.eol.eq(last_column),
                     self.o.payload.eof.eq(last_column & last_row),
                 ]
                 m.next = "OFFER"
             with m.State("OFFER"):
-                m.d.comb += [self.busy.eq(1), self.o.valid.eq(1), read.en.eq(0)]
+                m.d.comb += [self.busy.eq(1), self.o.valid.eq(1)]
                 with m.If(self.o.ready):
                     m.d.sync += x.eq(Mux(last_column, 0, x + 1))
                     m.next = "READ"

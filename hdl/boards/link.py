@@ -144,12 +144,12 @@ class SerialCore(wiring.Component):
         row = outbox.o.reply.row.word_select(sender.index[0], 8)
         with m.Switch(outbox.o.reply.type):
             with m.Case(REPLY | Type.HELLO):
-                m.d.comb += sender.data.eq(text.data)
+                m.d.sync += sender.data.eq(text.data)
             with m.Case(REPLY | Type.LINE, REPLY | Type.FETCH):
-                m.d.comb += sender.data.eq(Mux(sender.index < ROW.size, row, results.data))
+                m.d.sync += sender.data.eq(Mux(sender.index < ROW.size, row, results.data))
             with m.Case(REPLY | Type.STATUS):
-                m.d.comb += sender.data.eq(
+                m.d.sync += sender.data.eq(
                     frozen.word_select(sender.index[: (COUNTERS.size - 1).bit_length()], 8)
                 )
             with m.Default():
-                m.d.comb += sender.data.eq(outbox.o.note)
+                m.d.sync += sender.data.eq(outbox.o.note)

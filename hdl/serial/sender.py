@@ -41,7 +41,8 @@ class PacketSender(wiring.Component):
         place = Signal(range(HEADER.size))  # in the header, or in the checksum
         escaped = Signal()
         byte = Signal(unsigned(BYTE_BITS))
-        m.d.comb += [crc.data.eq(byte), self.busy.eq(1)]
+        m.d.comb += self.busy.eq(1)
+        m.d.sync += [crc.data.eq(byte), crc.valid.eq(0)]
 
         header = Signal(8 * HEADER.size)
         m.d.comb += header.eq(Cat(Const(VERSION, 8), self.type, self.sequence, self.length))
@@ -56,8 +57,9 @@ class PacketSender(wiring.Component):
                 self.o.valid.eq(1),
                 self.o.payload.eq(Mux(begin_escape, ESCAPE, Mux(escaped, byte ^ TOGGLE, byte))),
                 passed.eq(taken & ~begin_escape),
-                crc.valid.eq(passed & checked),
             ]
+            if checked:
+                m.d.sync += crc.valid.eq(passed)
             with m.If(taken):
                 m.d.sync += escaped.eq(begin_escape)
 

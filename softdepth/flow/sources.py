@@ -1,4 +1,4 @@
-"""What a netlist depends on in the project itself, as a hash, so that results of old sources are told apart."""
+"""What a netlist depends on in the project itself, as a hash: results of older sources are told apart."""
 
 import hashlib
 from pathlib import Path
@@ -13,7 +13,7 @@ FILES = ("config.py", "rules.py", "soft.py", "boards.py", "protocol.py", "flow")
 
 
 def sources_hash(*further: Path) -> str:
-    """Twenty hex digits that change with every source of the gateware or the flow, and with `further` files."""
+    """Twenty hex digits that change with every source of the gateware and the flow, and `further` files."""
     digest = hashlib.sha256()
     for place in (HDL, *(PACKAGE / name for name in FILES), *further):
         for file in sorted(place.rglob("*.py")) if place.is_dir() else [place]:

@@ -3,6 +3,7 @@
 import json
 import platform
 import time
+from collections import Counter
 from pathlib import Path
 from typing import Any, Literal
 
@@ -98,17 +99,20 @@ def _gateware(reading: Reading, operator: Operator) -> dict[str, int]:
 
 
 def with_luts(speeds: Speeds, utilization: Path) -> Speeds:
-    """`speeds` with ``luts_per_lane``, if the JSON file ``{"luts_per_lane": {operator: number}}`` is there.
+    """`speeds` with ``luts_per_lane`` from the rows of ``docs/utilization.json``, if the file is there.
 
+    Operators are compared in the preset `paper`, at the number of lanes that was measured for most of them.
     Raises `InputError` for a file that cannot be read.
     """
     if not utilization.exists():
         return speeds
     try:
-        data: Any = json.loads(utilization.read_text())
+        data: dict[str, Any] = json.loads(utilization.read_text())
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read '{utilization}': {error}", "make it again, or remove it") from error
-    luts = data.get("luts_per_lane", {}) if isinstance(data, dict) else {}
+    rows = [row for row in data.get("rows", ()) if row.get("preset") == "paper"]
+    lanes = Counter(row["lanes"] for row in rows).most_common(1)
+    luts = {row["operator"]: row["lut4_per_lane"] for row in rows if row["lanes"] == lanes[0][0]}
     known = [s.model_copy(update={"luts_per_lane": luts.get(s.operator)}) for s in speeds.operators]
     return speeds.model_copy(update={"operators": known})
 

@@ -47,7 +47,14 @@ def test_luts_are_read_where_they_are(tmp_path):
     path = tmp_path / "utilization.json"
     assert with_luts(speeds(), path) == speeds()
     assert {row[-1] for row in pages.speed_rows(speeds())} == {"not measured"}
-    path.write_text(json.dumps({"luts_per_lane": {"mean": 1234.4, "min": 900}}))
+    measured = [
+        ("paper", "mean", 4, 1234.4),
+        ("paper", "min", 4, 900),
+        ("paper", "mean", 32, 99),
+        ("lite", "prod", 4, 7),
+    ]
+    keys = ("preset", "operator", "lanes", "lut4_per_lane")
+    path.write_text(json.dumps({"rows": [dict(zip(keys, row, strict=True)) for row in measured]}))
     rows = {row[0]: row[-1] for row in pages.speed_rows(with_luts(speeds(), path))}
     assert rows["MEAN"] == "1,234"
     assert rows["MIN"] == "900"

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from softdepth.golden.maps import DisparityMap
     from softdepth.sim.compare import Mismatch
 
-Engine = Literal["board", "rtl", "fixed", "float", "sad"]
+Engine = Literal["rtl", "fixed", "float", "sad", "board"]
 """``board`` and ``rtl`` are the gateware, in an FPGA and simulated. ``sad`` is the baseline: plain 3x3 SAD
 with the same candidates and view, in fixed point."""
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from softdepth import markers
 from softdepth.errors import InputError, SoftdepthError
 from softdepth.measure import Engine
-from softdepth.report import ENGINES, Report
+from softdepth.report import Report
 
 PART = "figures"
 BEGIN, END = markers.markers(PART)
@@ -29,10 +29,10 @@ def figures(report: Report) -> str:
     if report.rtl_mismatches is None or report.metrics["rtl"].bad1 is None:
         raise InputError(f"the run of {report.pair} has no gateware figures", "run make demo first")
     rows = []
-    for engine in ENGINES:
+    for engine, title in _TITLES.items():
         a = report.metrics[engine]
         rows.append(
-            f"| {_TITLES[engine]} | {a.bad1:.2f} % | {a.bad2:.2f} % | {a.mae:.2f} px | {a.rmse:.2f} px"
+            f"| {title} | {a.bad1:.2f} % | {a.bad2:.2f} % | {a.mae:.2f} px | {a.rmse:.2f} px"
             f" | {a.paper_rmse:.2f} |"
         )
     return "\n".join(

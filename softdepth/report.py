@@ -59,7 +59,7 @@ class Report(BaseModel):
     rtl_mismatches: int | None
     cycles_per_pixel: float | None
     sim_pixels_per_second: float | None
-    link: dict[str, int] | None
+    link: dict[str, int] | None = None
     seconds: dict[Engine, float | None]
     metrics: dict[Engine, Accuracy]
     config: dict[str, Any]

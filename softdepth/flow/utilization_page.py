@@ -67,8 +67,8 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         f" {', '.join(f'{name}: {text}' for name, text in tools.items())}; nextpnr's seed {first.seed},"
         f" aiming at {AIM_MHZ:g} MHz. Figures are nextpnr's own. LUT4 counts a carry cell as two and"
         " distributed RAM as what it takes; DSP are multipliers of 18x18 bits, EBR block RAMs of 18 kbit."
-        f" The core stands between shift registers, which are in the figures: {first.wrapper_lut4} LUT4 and {first.wrapper_ff}"
-        " flip-flops.",
+        " The core stands between shift registers, which are in the figures:"
+        f" {first.wrapper_lut4} LUT4 and {first.wrapper_ff} flip-flops.",
         "",
         "| preset | operator | disparities | lanes | width | LUT4 | FF | EBR | DSP | fmax, MHz | clocks/pixel"
         " | Mpixel/s | MDE/s | MDE/s per kLUT | LUT4 per lane |",
@@ -99,8 +99,8 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         "",
         f"## Blocks of {_name(detailed.row)}",
         "",
-        "Cells by the block whose net they drive. `lane` and other repeated blocks stand for all of their kind"
-        " together, a block for what is in none of those below it, `top` for the shift registers.",
+        "Cells by the block whose net they drive. `lane` and other repeated blocks stand for all of their"
+        " kind together, a block for what is in none of those below it, `top` for the shift registers.",
         "",
         "| block | LUT4 | FF | EBR | DSP |",
         "|---|---:|---:|---:|---:|",

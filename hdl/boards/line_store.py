@@ -2,7 +2,7 @@
 
 from amaranth.hdl import Cat, Module, Mux, Signal
 from amaranth.lib import stream, wiring
-from amaranth.lib.memory import Memory
+from amaranth.lib.memory import Memory, WritePort
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
@@ -89,7 +89,7 @@ class LineStore(wiring.Component):
             m.d.sync += y.eq(0)
         return m
 
-    def _write(self, m: Module, write: object, x: Signal) -> None:
+    def _write(self, m: Module, write: WritePort, x: Signal) -> None:
         """Bytes gather to a pair, which is written with its last byte."""
         place = Signal(range(PAIR_BYTES))
         address = Signal(range(self._depth + 1))

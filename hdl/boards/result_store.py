@@ -1,6 +1,6 @@
 """Result store: lines of results wait until the host has them for certain."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.hdl import Array, Cat, Module, Mux, Signal, Value
 from amaranth.lib import stream, wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -92,9 +92,10 @@ class ResultStore(wiring.Component):
         ]
         return m
 
-    def _base(self, slot: Signal) -> Signal:
-        return sum(Mux(slot == k, k * self._depth, 0) for k in range(1, SLOTS))  # type: ignore[return-value]
+    def _base(self, slot: Signal) -> Value:
+        """Address of a slot's first result."""
+        return Array(k * self._depth for k in range(SLOTS))[slot]
 
     @staticmethod
-    def _after(slot: Signal) -> object:
+    def _after(slot: Signal) -> Value:
         return Mux(slot == SLOTS - 1, 0, slot + 1)

@@ -79,7 +79,7 @@ class Measurement(BaseModel):
     seconds: dict[str, float]
 
 
-class Selection(BaseModel):
+class Selection(BaseModel, frozen=True):
     """What a row is asked for by, written ``PRESET/OPERATOR/LANES``."""
 
     preset: str

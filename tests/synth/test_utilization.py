@@ -1,0 +1,218 @@
+"""Rows of the table of area and speed: what they hold, how they follow from nextpnr, when they are made."""
+
+import json
+
+import pytest
+from amaranth.sim import Simulator
+
+from softdepth.cli import main
+from softdepth.config import Config
+from softdepth.flow import utilization, utilization_page
+from softdepth.flow.blocks import blocks
+from softdepth.flow.limits import taken
+from softdepth.flow.measuring_top import MeasuringTop
+from softdepth.flow.route import Clock, CriticalPath, Routed, Usage
+from softdepth.flow.sources import sources_hash
+from softdepth.flow.synthesis import TOP, synthesise
+from softdepth.flow.utilization import PART, Row, Selection, row_of
+
+KEYS = [
+    "device",
+    "preset",
+    "operator",
+    "disparities",
+    "lanes",
+    "width",
+    "lut4",
+    "ff",
+    "ebr",
+    "dsp",
+    "fmax_mhz",
+    "cycles_per_pixel",
+    "mpixel_s",
+    "mde_s",
+    "mde_s_per_klut",
+    "lut4_per_lane",
+]
+
+PATH = CriticalPath("core.a", "core.b", 8.0, 5)
+
+
+def routed(fmax: float = 125.0, luts: int = 8000) -> Routed:
+    counts = {"Total LUT4s": luts, "Total DFFs": 9000, "DP16KD": 12, "MULT18X18D": 34}
+    usage = {word: Usage(count, 83640) for word, count in counts.items()}
+    return Routed((Clock("clk", 150.0, fmax, PATH),), usage, 1)
+
+
+def row(fmax: float = 125.0, luts: int = 8000, lanes: int = 16) -> Row:
+    config = Selection(preset="paper", operator="mean", lanes=lanes).config()
+    return row_of(config, "paper", PART, routed(fmax, luts))
+
+
+def test_a_row_has_the_documented_keys_and_figures():
+    assert row().model_dump() == {
+        "device": "LFE5U-85F-6",
+        "preset": "paper",
+        "operator": "mean",
+        "disparities": 64,
+        "lanes": 16,
+        "width": 1280,
+        "lut4": 8000,
+        "ff": 9000,
+        "ebr": 12,
+        "dsp": 34,
+        "fmax_mhz": 125.0,
+        "cycles_per_pixel": 4,
+        "mpixel_s": 31.25,
+        "mde_s": 2000.0,
+        "mde_s_per_klut": 250.0,
+        "lut4_per_lane": 500.0,
+    }
+    assert list(row().model_dump()) == KEYS
+
+
+@pytest.mark.parametrize(
+    ("fmax", "lanes", "modes"),
+    [
+        (125.0, 16, ["VGA 60", "720p30"]),
+        (110.7, 32, ["VGA 60", "720p30", "720p60"]),
+        (110.5, 32, ["VGA 60", "720p30"]),
+        (60.0, 4, []),
+    ],
+)
+def test_video_modes(fmax, lanes, modes):
+    assert utilization_page.modes(row(fmax, lanes=lanes)) == modes
+
+
+def test_the_recommended_rows_are_sound_configurations():
+    for selection in utilization_page.RECOMMENDED:
+        config = selection.config()
+        assert (config.disparities, config.max_width) == (64, 1280)
+    assert set(utilization_page.QUICK) < set(utilization_page.RECOMMENDED)
+    presets = {(s.preset, s.lanes) for s in utilization_page.RECOMMENDED if s.operator == "mean"}
+    assert presets >= {(p, n) for p in ("paper", "lite", "sad") for n in (4, 16, 32)}
+
+
+def test_the_measuring_top_reads_every_output_and_feeds_every_input():
+    """Bits shifted in appear at the core's ports; the core's ports appear in what is shifted out."""
+    config = Config.preset("sad").override(["disparities=4", "lanes=1", "max_width=16", "max_height=16"])
+    top = MeasuringTop(config)
+    inputs, outputs = len(top._inputs), len(top._outputs)
+    assert top.flip_flops == inputs + 2 * outputs
+    # Pixels without a start of frame: the core takes them, and counts that the start was missing.
+    pattern = [int(k % 3 == 0 and k < 48) for k in range(inputs)]
+    pattern[inputs - 2 :] = [1, 1]
+
+    async def bench(ctx):
+        for bit in reversed(pattern):
+            ctx.set(top.serial_in, bit)
+            await ctx.tick()
+        seen = ctx.get(top._inputs)
+        assert [(seen >> k) & 1 for k in range(inputs)] == pattern
+        await ctx.tick().repeat(20)
+        expected = ctx.get(top._outputs)
+        await ctx.tick()
+        ctx.set(top.load, 1)
+        await ctx.tick()
+        ctx.set(top.load, 0)
+        bits = []
+        for _ in range(outputs):
+            bits.append(ctx.get(top.serial_out))
+            await ctx.tick()
+        assert sum(bit << k for k, bit in enumerate(bits)) == expected != 0
+
+    simulator = Simulator(top)
+    simulator.add_clock(1e-6)
+    simulator.add_testbench(bench)
+    simulator.run()
+
+
+@pytest.mark.slow
+def test_blocks_account_for_every_cell(tmp_path):
+    config = Config.preset("sad").override(["disparities=4", "lanes=2", "max_width=16", "max_height=16"])
+    netlist = synthesise(MeasuringTop(config), "ecp5", tmp_path)
+    found = {block.name: block for block in blocks(netlist)}
+    total = taken(netlist)
+    for resource in ("lut4", "ff", "ebr"):
+        assert sum(getattr(block, resource) for block in found.values()) == total[resource]
+    assert {"top", "core.guard", "core.lane.sad", "core.sequencer"} <= set(found)
+    assert found["core.lane.sad"].ff > found["core.guard"].ff > 0
+    assert len(netlist["modules"][TOP]["ports"]) == 5
+
+
+@pytest.fixture
+def runs(cache, monkeypatch):
+    """Measurements that take no time; what was measured is noted."""
+    done = []
+
+    def measure(config, preset, part, seed):
+        done.append((config.hash, seed))
+        return utilization.Measurement(
+            row=row_of(config, preset, part, routed()),
+            config_hash=config.hash,
+            seed=seed,
+            wrapper_lut4=75,
+            wrapper_ff=205,
+            critical_path=str(PATH),
+            blocks=[],
+            seconds={"synthesis": 1.0},
+        )
+
+    monkeypatch.setattr(utilization, "_measure", measure)
+    return done
+
+
+def test_a_second_run_measures_what_has_changed_and_no_more(runs, monkeypatch):
+    one, two = (Selection(preset="lite", operator="mean", lanes=n).config() for n in (4, 8))
+    first = utilization.measure(one, "lite")
+    assert utilization.measure(one, "lite") == first
+    assert runs == [(one.hash, 1)]
+    utilization.measure(two, "lite")
+    utilization.measure(one, "lite", seed=2)
+    assert runs == [(one.hash, 1), (two.hash, 1), (one.hash, 2)]
+    monkeypatch.setattr(utilization, "sources_hash", lambda: "other sources")
+    utilization.measure(one, "lite")
+    assert len(runs) == 4
+
+
+def test_the_sources_hash_changes_with_the_sources(tmp_path):
+    file = tmp_path / "pins.lpf"
+    file.write_text("1")
+    before = sources_hash(file)
+    assert sources_hash(file) == before != sources_hash()
+    file.write_text("2")
+    assert sources_hash(file) != before
+
+
+def test_the_command_writes_both_files(runs, tmp_path, capfd):
+    rows = ("--row", "paper/mean/4", "--row", "sad/mean/8")
+    assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "utilization.json").read_text())
+    assert [(r["preset"], r["lanes"]) for r in data["rows"]] == [("paper", 4), ("sad", 8)]
+    assert all(list(r) == KEYS for r in data["rows"])
+    assert data["runs"][0]["seed"] == 1
+    page = (tmp_path / "utilization.md").read_text()
+    assert (
+        "| paper | mean | 64 | 4 | 1280 | 8,000 | 9,000 | 12 | 34 | 125.0 | 16 | 7.8 | 500 | 62 | 2000 |"
+        in page
+    )
+    assert "core.a to core.b, 8.00 ns through 5 cells" in page
+    assert "row 2 of 2: sad/mean/8" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["paper", "paper/mean", "paper/median/4", "paper/mean/many"])
+def test_a_row_that_is_none(refused, runs, text, tmp_path):
+    assert f"--row '{text}' is not PRESET/OPERATOR/LANES" in refused(
+        "utilization", "--row", text, "-o", tmp_path
+    )
+
+
+def test_a_later_row_that_is_wrong_stops_before_the_first_is_built(refused, runs, tmp_path):
+    rows = ("--row", "lite/mean/4", "--row", "sade/mean/4")
+    assert "unknown preset 'sade'" in refused("utilization", *rows, "-o", tmp_path)
+    assert runs == []
+
+
+def test_a_folder_that_is_not_there(refused, runs, tmp_path):
+    assert "does not exist" in refused("utilization", "--quick", "-o", tmp_path / "none")
+    assert runs == []

@@ -12,7 +12,7 @@ from softdepth.hdl.argmin import ArgminSequence, ArgminTree, FractionMin, candid
 
 from .support import Ports, observe, piped
 
-LOW, NUM, DEN, INDICES = -220, 14080, 2816, 16  # much as soft-min I at eight bits has them
+LOW, NUM, DEN, INDICES = -6912, 6656, 4864, 16  # those of MEAN at eight bits
 FRACTIONS = candidate_layout(range(LOW, NUM + 1), range(DEN + 1), INDICES)
 NUMBERS = candidate_layout(range(NUM + 1), unsigned(0), INDICES)
 INFINITE = (1, 0)
@@ -40,7 +40,7 @@ def candidates(random: Random, count: int, layout: Any) -> list[Candidate]:
     plain = layout is NUMBERS
     style = random.randrange(4)
     made = []
-    for index in random.sample(range(INDICES), count):
+    for index in random.sample(range(max(INDICES, count)), count):
         den = random.randint(1, DEN)
         num = random.randint(0, min(5 * den, NUM))
         if style == 1:  # equal fractions of different terms, and close misses
@@ -51,13 +51,25 @@ def candidates(random: Random, count: int, layout: Any) -> list[Candidate]:
                 ((NUM, DEN), (NUM - 1, DEN), (NUM, DEN - 1), (0, 1), (0, DEN), (LOW, 1), (LOW, DEN), INFINITE)
             )
         elif style == 3 and not plain:  # about zero
-            num = random.randint(LOW, -LOW)
+            num = random.randint(-200, 200)
         if plain:
             num, den = max(num, 0), 0
         made.append(Candidate(num, den, index, random.random() < 0.25))
     if plain and style == 1:
         made = [c._replace(num=7 + c.num % 2) for c in made]
     return made
+
+
+def side_by_side(random: Random, count: int, layout: Any) -> list[Candidate]:
+    """The same in order of their indices, which count from 0; the excluded ones are the last."""
+    running = random.choice((count, random.randint(0, count)))
+    made = candidates(random, count, layout)
+    return [c._replace(index=k, excluded=k >= running) for k, c in enumerate(made)]
+
+
+def terms(c: Candidate) -> dict[str, int]:
+    """A candidate whose place tells its index."""
+    return {"num": c.num, "den": c.den, "excluded": c.excluded}
 
 
 @pytest.mark.parametrize("layout", [FRACTIONS, NUMBERS])
@@ -93,14 +105,48 @@ def test_an_infinite_cost_loses_against_any_other(finite: tuple[int, int]) -> No
 
 
 @pytest.mark.parametrize("layout", [FRACTIONS, NUMBERS])
-@pytest.mark.parametrize("count", range(1, 10))
+def test_better_of_two_halves(layout: Any) -> None:
+    """Indices count within each half, and the excluded candidates are the upper ones."""
+    random = Random(3)
+    pairs = []
+    for _ in range(300):
+        a, b = side_by_side(random, 2, layout)
+        pairs.append(
+            (a._replace(index=random.randrange(INDICES)), b._replace(index=random.randrange(INDICES)))
+        )
+    got = piped(FractionMin(layout, halves=True), [{"a": a._asdict(), "b": b._asdict()} for a, b in pairs])
+    taken = set()
+    for (a, b), o in zip(pairs, got, strict=True):
+        winner = best((a._replace(index=0), b._replace(index=1)), layout)
+        if winner is None:
+            assert o.excluded
+            continue
+        chosen = (a, b)[winner]
+        assert (o.num, o.den, o.index, o.excluded) == (*chosen[:2], INDICES * winner + chosen.index, 0)
+        taken.add((winner, b.excluded))
+    assert taken == {(0, 0), (0, 1), (1, 0)}
+
+
+@pytest.mark.parametrize("layout", [FRACTIONS, NUMBERS])
+@pytest.mark.parametrize("count", [*range(1, 12), 16, 21])
 def test_tree(count: int, layout: Any) -> None:
+    """Counts that are no powers of two leave places that wait on some levels."""
     random = Random(count)
-    sets = [sorted(candidates(random, count, layout), key=lambda c: c.index) for _ in range(60)]
-    got = piped(ArgminTree(layout, count), [{"i": [c._asdict() for c in s]} for s in sets])
+    sets = [side_by_side(random, count, layout) for _ in range(60)]
+    sets += [  # every place wins once, and ties with all after it
+        [Candidate(9 + (k < winner), 0 if layout is NUMBERS else 5, k, 0) for k in range(count)]
+        for winner in range(count)
+    ]
+    num, den = (layout[name].shape for name in ("num", "den"))
+    got = piped(ArgminTree(num, den, count), [{"i": [terms(c) for c in s]} for s in sets])
+    winners = set()
     for s, o in zip(sets, got, strict=True):
         expected = best(s, layout)
-        assert (None if o.excluded else o.index) == expected, s
+        assert bool(o.excluded) == (expected is None), s
+        if expected is not None:
+            assert (o.index, o.num, o.den) == (expected, *s[expected][:2]), s
+            winners.add(expected)
+    assert winners == set(range(count))
 
 
 @pytest.mark.parametrize("rate", [1.0, 0.5])

@@ -12,7 +12,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth import config as configuration
 from softdepth.config import Config
 from softdepth.hdl.operators import OPERATORS
-from softdepth.hdl.pipeline import Pipeline
+from softdepth.hdl.pipeline import Pipeline, clocks, start
 
 from .expected import theta
 from .support import config, piped
@@ -40,7 +40,8 @@ class Theta(wiring.Component):
     def __init__(self, c: Config) -> None:
         self.config = c
         self.unit = OPERATORS[c.operator](c)
-        self.latency = self.unit.pair_latency + self.unit.fire_latency
+        self.operations = self.unit.pair_latency + self.unit.fire_latency
+        self.latency = clocks(self.operations)
         degree = In(range(c.one + 1))
         low, high = c.strength_range
         super().__init__({"a": degree, "b": degree, "c": degree, "o": Out(range(low, high + 1))})
@@ -48,11 +49,13 @@ class Theta(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         p = Pipeline(m)
-        a, b, c = (p.input(x, self.config.one) for x in (self.a, self.b, self.c))
+        begin = start(self.operations)
+        a, b, c = (p.input(x, self.config.one, time=begin) for x in (self.a, self.b, self.c))
         pair = self.unit.pair(p, b, c)
-        assert pair.time == self.unit.pair_latency
+        assert pair.time == begin + self.unit.pair_latency
         strength = self.unit.fire(p, a, pair)
-        assert strength.time == self.latency
+        assert strength.time == begin + self.operations
+        assert p.clock(strength) == self.latency
         assert (strength.minimum, strength.maximum) == self.config.strength_range
         m.d.comb += self.o.eq(strength.value)
         return m

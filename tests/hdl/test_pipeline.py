@@ -1,4 +1,4 @@
-"""Pipeline: ranges, widths and alignment, with the extremes of every range."""
+"""Pipeline: ranges, widths, alignment and operations a clock, with the extremes of every range."""
 
 import itertools
 import math
@@ -8,13 +8,13 @@ from random import Random
 from typing import Any
 
 import pytest
-from amaranth.hdl import Module, Shape, signed
+from amaranth.hdl import Const, Module, Shape, Signal, signed
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.pipeline import Pipeline, Word, tree_latency
+from softdepth.hdl.pipeline import LEVELS, Pipeline, Word, clocks, start, travelling, tree_latency
 
-from .support import piped
+from .support import observe, piped
 
 Range = tuple[int, int]
 Build = Callable[[Pipeline, Sequence[Word]], Word]
@@ -23,35 +23,39 @@ Build = Callable[[Pipeline, Sequence[Word]], Word]
 class Arithmetic(wiring.Component):
     """One expression over inputs of given ranges; ``word`` is what the pipeline says of its result."""
 
-    def __init__(self, ranges: Sequence[Range], latency: int, build: Build) -> None:
+    def __init__(
+        self, ranges: Sequence[Range], operations: int, build: Build, *, levels: int = LEVELS
+    ) -> None:
         self.ranges = ranges
-        self.latency = latency
+        self.levels = levels
+        self.latency = operations // levels
         self.build = build
         shapes = {f"a{k}": Shape.cast(range(low, high + 1)) for k, (low, high) in enumerate(ranges)}
         super().__init__({"i": In(data.StructLayout(shapes)), "o": Out(signed(48))})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        pipeline = Pipeline(m)
+        pipeline = Pipeline(m, self.levels)
         inputs = [
             pipeline.input(self.i[f"a{k}"], high, minimum=low) for k, (low, high) in enumerate(self.ranges)
         ]
         self.word = self.build(pipeline, inputs)
+        assert pipeline.clock(self.word) == self.latency
         m.d.comb += self.o.eq(self.word.value)
         return m
 
 
 def check(
     ranges: Sequence[Range],
-    latency: int,
+    operations: int,
     build: Build,
     function: Callable[..., int],
     *,
     lowest: int | None = None,
-) -> Word:
-    """Compare an expression with a function, at all extremes and at random; gives its word.
+) -> None:
+    """Compare an expression with a function, at all extremes and at random, for 1 to 3 operations a clock.
 
-    Its range is what the function reaches, with ``lowest`` the minimum where that is a bound only.
+    Its inputs change in every clock. Its range is what the function reaches, with ``lowest`` the minimum where that is a bound only.
     """
     random = Random(1)
     corners = list(itertools.islice(itertools.product(*ranges), 64))
@@ -61,14 +65,14 @@ def check(
     if len(ranges) == 2 and max(low for low, _ in ranges) <= min(high for _, high in ranges):
         inputs.append([max(low for low, _ in ranges)] * 2)  # equal operands
     random.shuffle(inputs)
-    dut = Arithmetic(ranges, latency, build)
-    got = piped(dut, [{"i": {f"a{k}": v for k, v in enumerate(values)}} for values in inputs])
-    assert got == [function(*values) for values in inputs]
-    assert dut.word.time == latency
-    assert dut.word.minimum == (min(got) if lowest is None else lowest) <= min(got)
-    assert dut.word.maximum == max(got)
-    assert dut.word.value.shape() == Shape.cast(range(dut.word.minimum, dut.word.maximum + 1))
-    return dut.word
+    for levels in (1, 2, 3):
+        dut = Arithmetic(ranges, operations, build, levels=levels)
+        got = piped(dut, [{"i": {f"a{k}": v for k, v in enumerate(values)}} for values in inputs])
+        assert got == [function(*values) for values in inputs]
+        assert dut.word.time == operations
+        assert dut.word.minimum == (min(got) if lowest is None else lowest) <= min(got)
+        assert dut.word.maximum == max(got)
+        assert dut.word.value.shape() == Shape.cast(range(dut.word.minimum, dut.word.maximum + 1))
 
 
 RANGES: list[tuple[Range, Range]] = [
@@ -177,7 +181,7 @@ def test_tree_latency(count: int, latency: int) -> None:
     assert tree_latency(count) == latency
 
 
-def test_operands_of_different_clocks_are_aligned() -> None:
+def test_operands_of_different_times_are_aligned() -> None:
     def build(p: Pipeline, w: Sequence[Word]) -> Word:
         late = p.add(p.add(p.add(w[0], w[1]), w[2]), w[0])
         return p.max(p.add(late, w[1]), p.shifted(w[2], 2))
@@ -185,29 +189,77 @@ def test_operands_of_different_clocks_are_aligned() -> None:
     check([(0, 15), (-8, 7), (0, 9)], 5, build, lambda a, b, c: max(2 * a + 2 * b + c, 4 * c))
 
 
-def test_inputs_may_arrive_later() -> None:
-    """The second input is said to come two clocks after the first: it is paired with what came then."""
+@pytest.mark.parametrize("levels", [1, 2, 3])
+@pytest.mark.parametrize("time", [0, 1, 2, 3, 5, 6])
+def test_inputs_may_arrive_later(levels: int, time: int) -> None:
+    """The second input is said to come some clocks after the first: it is paired with what came then."""
 
     def build(p: Pipeline, w: Sequence[Word]) -> Word:
-        late = p.input(w[1].value, w[1].maximum, time=2)
-        return p.add(w[0], late)
+        return p.add(w[0], p.input(w[1].value, w[1].maximum, time=time))
 
-    dut = Arithmetic([(0, 255), (0, 255)], 3, build)
+    dut = Arithmetic([(0, 255), (0, 255)], time + 1, build, levels=levels)
     random = Random(3)
     first, second = ([random.getrandbits(8) for _ in range(30)] for _ in range(2))
-    clocks: list[Any] = [{"i": {"a0": a, "a1": b}} for a, b in zip(first, second, strict=True)]
-    got = piped(dut, clocks)
-    assert got[:28] == [a + b for a, b in zip(first, second[2:], strict=False)]
+    inputs: list[Any] = [{"i": {"a0": a, "a1": b}} for a, b in zip(first, second, strict=True)]
+    later = time // levels
+    got = piped(dut, inputs)[: 30 - later]
+    assert got == [a + b for a, b in zip(first, second[later:], strict=False)]
 
 
-def test_at_delays_and_never_looks_ahead() -> None:
-    check([(-3, 12)], 4, lambda p, w: p.at(w[0], 4), lambda a: a)
+@pytest.mark.parametrize("time", range(5))
+def test_at_delays_and_never_looks_ahead(time: int) -> None:
+    check([(-3, 12)], time, lambda p, w: p.at(w[0], time), lambda a: a)
 
     def early(p: Pipeline, w: Sequence[Word]) -> Word:
         word = p.input(w[0].value, 1, time=3)
         assert p.at(word, 3) == word
-        with pytest.raises(ValueError, match="clock 3 is not there at clock 2"):
+        with pytest.raises(ValueError, match="time 3 is not there at time 2"):
             p.at(word, 2)
         return word
 
     piped(Arithmetic([(0, 1)], 3, early), [{}])
+
+
+def test_a_constant_needs_no_registers() -> None:
+    def build(p: Pipeline, w: Sequence[Word]) -> Word:
+        constant = p.at(p.input(Const(5, 3), 5, minimum=5), 4)
+        assert isinstance(constant.value, Const)
+        return p.add(p.at(w[0], 4), constant)
+
+    check([(-3, 12)], 5, build, lambda a: a + 5)
+
+
+@pytest.mark.parametrize("levels", [1, 2, 3])
+@pytest.mark.parametrize("operations", range(8))
+def test_operations_end_in_a_register_and_none_is_wasted(operations: int, levels: int) -> None:
+    """Begun at `start`, so many operations end with a clock, in as few clocks as they fit."""
+    begin = start(operations, levels)
+    assert 0 <= begin < levels
+    assert (begin + operations) % levels == 0
+    assert clocks(operations, levels) == (begin + operations) // levels == math.ceil(operations / levels)
+
+
+@pytest.mark.parametrize("count", [0, 1, 4])
+def test_a_travelling_bit_is_reset(count: int) -> None:
+    """It is there at once and after each clock up to the last; what is under way at a reset is lost."""
+
+    class Travelling(wiring.Component):
+        i: In(1)
+        o: Out(count + 1)
+
+        def elaborate(self, platform: object) -> Module:
+            m = Module()
+            bit = Signal()
+            m.d.comb += bit.eq(self.i)
+            bits = travelling(m, bit, count, "bit", since=2)
+            assert [b.name for b in bits[1:]] == [f"bit_{time}" for time in range(3, count + 3)]
+            m.d.comb += [self.o[k].eq(b) for k, b in enumerate(bits)]
+            assert not any(b.reset_less for b in bits)
+            return m
+
+    random = Random(count)
+    sent = [random.getrandbits(1) for _ in range(40)]
+    seen = observe(Travelling(), [{"i": bit} for bit in sent], "o")
+    for clock, bits in enumerate(seen):
+        expected = [sent[clock - k] if clock >= k else 0 for k in range(count + 1)]
+        assert [bits >> k & 1 for k in range(count + 1)] == expected

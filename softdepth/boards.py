@@ -87,8 +87,8 @@ def _boards() -> Iterator[Board]:
         clock_hz=12_000_000,
         constraints="icebreaker.pcf",
         preset="sad",
-        overrides=("disparities=32", "lanes=1", "max_width=640"),
-        core_hz=24_000_000,
+        overrides=("disparities=32", "lanes=1", "max_width=320"),
+        core_hz=18_000_000,
         baud=2_000_000,
         program=("openFPGALoader", "--board", "ice40_generic", "{bitstream}"),
     )

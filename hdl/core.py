@@ -53,14 +53,15 @@ class StereoCore(wiring.Component):
         self._tree = ArgminTree(num, den, config.lanes)
         self._sequence = ArgminSequence(self._best, config.steps)
 
-        # Clocks after the one in which the pixel is taken.
+        # Clocks after the one in which the sequencer takes the pixel.
         self._column_time = LineBuffer.latency
         self._criteria_time = self._column_time + lane.criteria_latency
         self._cost_time = self._column_time + lane.latency
         self._winner_time = self._cost_time + self._tree.latency
         self._result_time = self._winner_time + self._sequence.latency
-        self.latency = self._result_time + config.steps - 1 + FIFO_LATENCY
-        self.fifo_depth = -(-(self.latency + 2) // config.steps) + 2
+        promised = self._result_time + config.steps - 1 + FIFO_LATENCY
+        self.latency = ItemQueue.latency + promised
+        self.fifo_depth = -(-(promised + 2) // config.steps) + 2
         super().__init__(
             {
                 "i": In(stream.Signature(PixelPair)),

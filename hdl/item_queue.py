@@ -26,8 +26,10 @@ class ItemQueue(wiring.Component):
     Members
     -------
     i : items of the frame guard.
-    o : the same, with their places, one clock later or when they are taken.
+    o : the same, with their places, `latency` clocks later or when they are taken.
     """
+
+    latency = 1
 
     def __init__(self, config: Config) -> None:
         self._config = config

@@ -55,7 +55,8 @@ def check(
 ) -> None:
     """Compare an expression with a function, at all extremes and at random, for 1 to 3 operations a clock.
 
-    Its inputs change in every clock. Its range is what the function reaches, with ``lowest`` the minimum where that is a bound only.
+    Its inputs change in every clock. Its range is what the function reaches, with ``lowest`` the minimum
+    where that is a bound only.
     """
     random = Random(1)
     corners = list(itertools.islice(itertools.product(*ranges), 64))

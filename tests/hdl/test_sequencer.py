@@ -9,7 +9,7 @@ from amaranth.hdl import Cat, Signal, Value
 from amaranth.sim import SimulatorContext
 
 from softdepth.config import Config
-from softdepth.hdl.frame_guard import item_layout
+from softdepth.hdl.item_queue import placed_layout
 from softdepth.hdl.sequencer import Sequencer, tags_layout
 from softdepth.validity import Validity
 
@@ -41,7 +41,8 @@ class Step(NamedTuple):
     first: int
     last: int
     step: int
-    room: int
+    first_of_line: int
+    first_inner: int
 
 
 @dataclass
@@ -54,7 +55,8 @@ class Record:
     issues: list[int] = field(default_factory=list)
 
 
-def items(frames: list[Sent]) -> list[dict[str, Any]]:
+def items(frames: list[Sent], c: Config) -> list[dict[str, Any]]:
+    support = c.reach_left + c.reach_right
     sent: list[dict[str, Any]] = []
     for frame in frames:
         pixels = frame.width * frame.height
@@ -64,7 +66,8 @@ def items(frames: list[Sent]) -> list[dict[str, Any]]:
             last = k == pixels - 1
             sent.append(
                 {"x": x, "sof": k == 0, "eol": x == frame.width - 1, "eof": last and frame.end == "eof"}
-                | {"damaged": is_damaged[k]}
+                | {"damaged": is_damaged[k], "first": x == 0, "completes": x == c.reach_right}
+                | {"inner": x >= support, "first_inner": x == support}
             )
         if frame.end == "end":
             sent.append({"end": 1, "damaged": is_damaged[pixels]})
@@ -76,9 +79,9 @@ def run(
 ) -> Record:
     """Run frames through. A result's credit comes back some time after it was emitted."""
     dut = Sequencer(c)
-    layout = item_layout(c)
-    packed = [layout.const(item).as_value().value for item in items(frames)]
-    loads_of = [k for k, item in enumerate(items(frames)) if not item.get("end")]
+    layout = placed_layout(c)
+    packed = [layout.const(item).as_value().value for item in items(frames, c)]
+    loads_of = [k for k, item in enumerate(items(frames, c)) if not item.get("end")]
     random = Random(len(packed))
     record = Record()
     outputs = Cat(
@@ -96,11 +99,13 @@ def run(
             ctx.set(dut.i.valid, offered)
             credit = credits + returned - len(record.issues) > 0
             ctx.set(dut.credit, credit)
-            _, _, bits, step, room = await ctx.tick().sample(outputs, dut.step, dut.room)
+            _, _, bits, step, line, inner = await ctx.tick().sample(
+                outputs, dut.step, dut.first_of_line, dut.first_inner
+            )
             ready, load, valid, first, last, emit, issued = (bits >> k & 1 for k in range(7))
             quiet += 1
             if valid:
-                record.steps.append(Step(clock, first, last, step, room))
+                record.steps.append(Step(clock, first, last, step, line, inner))
             if load:
                 assert sent == loads_of[len(record.loads)], f"clock {clock}: not a pixel"
                 record.loads.append(clock)
@@ -149,12 +154,13 @@ def check(c: Config, frames: list[Sent], record: Record) -> None:
     for (emitted, _), issued in zip(record.emits, record.issues, strict=True):
         assert 0 < emitted - issued <= c.steps
 
-    # Every pixel takes all its steps, from the clock after its load.
+    # Every pixel takes all its steps, from the clock after its load, and its flags stay through them.
     assert len(record.steps) == len(record.loads) * c.steps
-    for n, loaded in enumerate(record.loads):
-        steps = record.steps[n * c.steps : (n + 1) * c.steps]
-        assert [s[:4] for s in steps] == [
-            (loaded + 1 + k, k == 0, k == c.steps - 1, k) for k in range(c.steps)
+    columns = [k % frame.width for frame in frames for k in range(frame.width * frame.height)]
+    support = c.reach_left + c.reach_right
+    for n, (loaded, x) in enumerate(zip(record.loads, columns, strict=True)):
+        assert record.steps[n * c.steps : (n + 1) * c.steps] == [
+            (loaded + 1 + k, k == 0, k == c.steps - 1, k, x == 0, x == support) for k in range(c.steps)
         ]
 
     base = 0
@@ -170,9 +176,6 @@ def check(c: Config, frames: list[Sent], record: Record) -> None:
                 )
             if tags.code < Validity.BORDER:
                 assert behind == at_y * frame.width + at_x
-                room = min(c.disparities - 1, x - c.reach_left)
-                steps = record.steps[(base + behind) * c.steps : (base + behind + 1) * c.steps]
-                assert {s.room for s in steps} == {room}
         base += frame.width * frame.height
 
 

@@ -2,8 +2,9 @@
 
 from amaranth.hdl import Cat, Module, Signal, unsigned
 from amaranth.lib import data, wiring
-from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.sliced_memory import SlicedMemory
 
 
 class LineBuffer(wiring.Component):
@@ -17,7 +18,7 @@ class LineBuffer(wiring.Component):
     ----------
     width : bits of a pixel.
     rows : rows of a column, the new pixel's included.
-    max_width : pixels of the longest line. Lines shorter than two pixels are not supported.
+    max_width : pixels of the longest line. Lines shorter than three pixels are not supported.
 
     Members
     -------
@@ -61,18 +62,18 @@ class LineBuffer(wiring.Component):
             m.d.comb += column[0].eq(pixel)
             return m
 
-        m.submodules.lines = lines = Memory(
-            shape=unsigned(self._width * (self._rows - 1)), depth=self._depth, init=[]
-        )
-        read = lines.read_port()
-        write = lines.write_port()
+        # What is written back comes from the output's registers, which block RAM has of its own.
+        m.submodules.lines = lines = SlicedMemory(self._width * (self._rows - 1), self._depth)
+        x = Signal(range(self._depth), reset_less=True)
+        written_at = Signal.like(x)
         m.d.comb += [
-            read.en.eq(self.en),
-            read.addr.eq(self.x),
-            column.as_value().eq(Cat(read.data, pixel)),
-            write.en.eq(entered),
-            write.data.eq(column.as_value()[self._width :]),
+            lines.read.eq(self.en),
+            lines.read_at.eq(self.x),
+            column.as_value().eq(Cat(lines.data, pixel)),
+            lines.write_at.eq(written_at),
+            lines.written.eq(held.as_value()[self._width :]),
         ]
+        m.d.sync += [lines.write.eq(entered), written_at.eq(x)]
         with m.If(self.en):
-            m.d.sync += write.addr.eq(self.x)
+            m.d.sync += x.eq(self.x)
         return m

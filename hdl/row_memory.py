@@ -2,8 +2,9 @@
 
 from amaranth.hdl import Cat, Module, ShapeLike, Signal
 from amaranth.lib import data, wiring
-from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.sliced_memory import SlicedMemory
 
 
 class RowMemory(wiring.Component):
@@ -47,23 +48,18 @@ class RowMemory(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.costs = costs = Memory(shape=self._layout, depth=self._places, init=[])
-        read = costs.read_port()
-        write = costs.write_port()
+        m.submodules.costs = costs = SlicedMemory(self._layout, self._places)
         rows = Signal(self._layout, reset_less=True)
         valid = Signal()
         place = Signal(range(self._places), reset_less=True)
+        valid_2, place_2 = Signal(), Signal.like(place)
         m.d.comb += [
-            read.en.eq(self.valid),
-            read.addr.eq(self.place),
+            costs.read.eq(self.valid),
+            costs.read_at.eq(self.place),
             self.rows.eq(rows),
-            write.data.as_value().eq(Cat(*(rows[k] for k in range(1, self._layout.length)), self.newest)),
+            costs.written.as_value().eq(Cat(*(rows[k] for k in range(1, self._layout.length)), self.newest)),
         ]
-        m.d.sync += [
-            valid.eq(self.valid),
-            place.eq(self.place),
-            rows.eq(read.data),
-            write.en.eq(valid),
-            write.addr.eq(place),
-        ]
+        m.d.sync += [valid.eq(self.valid), place.eq(self.place), rows.eq(costs.data)]
+        m.d.comb += [costs.write.eq(valid_2), costs.write_at.eq(place_2)]
+        m.d.sync += [valid_2.eq(valid), place_2.eq(place)]
         return m

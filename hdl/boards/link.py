@@ -133,9 +133,6 @@ class SerialCore(wiring.Component):
         """The payload's byte that the sender is at. A byte's time is long enough to read a memory."""
         m.submodules.hello = hello = Memory(shape=8, depth=len(self._hello), init=list(self._hello))
         text = hello.read_port()
-        frozen = Signal(8 * COUNTERS.size)  # the counters go on meanwhile
-        with m.If(outbox.start):
-            m.d.sync += frozen.eq(counters)
         m.d.comb += [
             text.addr.eq(sender.index),
             results.read_slot.eq(outbox.o.reply.slot),

@@ -13,7 +13,9 @@ from amaranth.lib.wiring import Component
 
 from softdepth.boards import Family
 from softdepth.config import Config
+from softdepth.flow.collisions import waive_collisions
 from softdepth.flow.fuse import fuse_carries
+from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
 
@@ -29,13 +31,25 @@ Netlist = dict[str, Any]
 NetlistPass = Callable[[Netlist], int]
 """Changes a netlist in place and returns how many cells went."""
 
-PASSES: dict[Family, tuple[NetlistPass, ...]] = {"ecp5": (fuse_carries,), "ice40": (), "gowin": ()}
+PASSES: dict[Family, tuple[NetlistPass, ...]] = {
+    "ecp5": (fuse_carries, absorb_ram_registers),
+    "ice40": (),
+    "gowin": (),
+}
 """What is done to each netlist between yosys and nextpnr, in this order."""
 
 COMMANDS: dict[Family, str] = {
     "ecp5": f"synth_ecp5 -top {TOP}",
     "ice40": f"synth_ice40 -top {TOP}",
-    "gowin": f"synth_gowin -top {TOP} -family gw2a",
+    "gowin": f"synth_gowin -top {TOP} -family gw2a -noiopads",
+}
+
+# yosys would give pads to every module that is mapped by itself: the top alone gets them, at the end.
+_PADS: dict[Family, str] = {
+    "ecp5": "",
+    "ice40": "",
+    "gowin": "iopadmap -bits -inpad IBUF O:I -outpad OBUF I:O -toutpad TBUF ~OEN:I:O"
+    " -tinoutpad IOBUF ~OEN:O:I:IO;",
 }
 
 # Lanes were kept apart so that each was mapped once; from here on the design is one module.
@@ -51,7 +65,7 @@ def to_rtlil(design: Component) -> str:
     finally:
         if enabled:
             gc.enable()
-    return share(text)
+    return share(waive_collisions(text))
 
 
 def synthesise(
@@ -76,7 +90,7 @@ def synthesise(
     text = design if isinstance(design, str) else to_rtlil(design)
     (folder / "design.il").write_text(text)
     command = " ".join((COMMANDS[family], *options))
-    script = f"read_rtlil design.il; {command}; {_JOIN}; write_json mapped.json"
+    script = f"read_rtlil design.il; {command}; {_JOIN}; {_PADS[family]} write_json mapped.json"
     # The packaged yosys may lose what it prints, but not what it logs.
     find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
     netlist = json.loads((folder / "mapped.json").read_text())

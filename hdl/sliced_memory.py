@@ -1,0 +1,61 @@
+"""A memory of wide words, cut so that block RAM holds it without a multiplexer."""
+
+from amaranth.hdl import Cat, Module, ShapeLike, Value
+from amaranth.lib import wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+SLICES = {512: 36, 1024: 18, 2048: 9, 4096: 4, 8192: 2}
+"""Bits that one block RAM (18 kbit, as on ECP5 and many others) is wide at each depth."""
+
+
+class SlicedMemory(wiring.Component):
+    """One write and one read port. A word must not be read in the clock in which it is written.
+
+    Left alone, synthesis makes a deep memory of shallow blocks and chooses among their outputs. The
+    words are cut into slices narrow enough for a single block to be as deep as the memory instead:
+    a few more blocks, and no logic in the read path.
+
+    Parameters
+    ----------
+    shape : of a word.
+    depth : words.
+
+    Members
+    -------
+    read, read_at, data : ``data`` is the word at ``read_at``, one clock after ``read`` was high, and held.
+    write, write_at, written : a word to be stored.
+    """
+
+    def __init__(self, shape: ShapeLike, depth: int) -> None:
+        self._depth = depth
+        super().__init__(
+            {
+                "read": In(1),
+                "read_at": In(range(depth)),
+                "data": Out(shape),
+                "write": In(1),
+                "write_at": In(range(depth)),
+                "written": In(shape),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        word, data = Value.cast(self.written), Value.cast(self.data)
+        width = next((bits for deep, bits in SLICES.items() if self._depth <= deep), 1)
+        parts = []
+        for low in range(0, len(word), width):
+            part = word[low : low + width]
+            m.submodules[f"slice_{low}"] = memory = Memory(shape=len(part), depth=self._depth, init=[])
+            read, write = memory.read_port(), memory.write_port()
+            m.d.comb += [
+                read.en.eq(self.read),
+                read.addr.eq(self.read_at),
+                write.en.eq(self.write),
+                write.addr.eq(self.write_at),
+                write.data.eq(part),
+            ]
+            parts.append(read.data)
+        m.d.comb += data.eq(Cat(*parts))
+        return m

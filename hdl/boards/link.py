@@ -1,6 +1,6 @@
 """The core behind a serial line."""
 
-from amaranth.hdl import Cat, Module, Mux, ResetInserter, Signal
+from amaranth.hdl import Cat, Module, Mux, ResetInserter, Value
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -128,7 +128,7 @@ class SerialCore(wiring.Component):
         return m
 
     def _payload(
-        self, m: Module, outbox: Outbox, sender: PacketSender, results: ResultStore, counters: Cat
+        self, m: Module, outbox: Outbox, sender: PacketSender, results: ResultStore, counters: Value
     ) -> None:
         """The payload's byte that the sender is at. A byte's time is long enough to read a memory."""
         m.submodules.hello = hello = Memory(shape=8, depth=len(self._hello), init=list(self._hello))
@@ -145,8 +145,8 @@ class SerialCore(wiring.Component):
             with m.Case(REPLY | Type.LINE, REPLY | Type.FETCH):
                 m.d.sync += sender.data.eq(Mux(sender.index < ROW.size, row, results.data))
             with m.Case(REPLY | Type.STATUS):
-                m.d.sync += sender.data.eq(
-                    frozen.word_select(sender.index[: (COUNTERS.size - 1).bit_length()], 8)
-                )
+                # The host waits for this reply, so that the counters stand still.
+                place = sender.index[: (COUNTERS.size - 1).bit_length()]
+                m.d.sync += sender.data.eq(counters.word_select(place, 8))
             with m.Default():
                 m.d.sync += sender.data.eq(outbox.o.note)

@@ -1,4 +1,4 @@
-"""SadCriteria: mixed windows and shifts, against plain loops over the pixels."""
+"""SadCriteria: mixed windows and shifts, with and without stored rows, against plain loops."""
 
 from random import Random
 from typing import Any
@@ -25,44 +25,66 @@ CASES: dict[str, list[dict[str, int]]] = {
 
 
 @pytest.mark.parametrize("steps", [1, 3])
+@pytest.mark.parametrize("share", [0, 0.5, 1])
 @pytest.mark.parametrize("name", CASES)
-def test_sums_of_every_candidate(name: str, steps: int) -> None:
+def test_sums_of_every_candidate(name: str, share: float, steps: int) -> None:
+    """Lines follow one another until all stored rows are known; `share` of the rows above are stored."""
     criteria = CASES[name]
-    c = config(
-        cost="fuzzy" if len(criteria) == 3 else "sad", criteria=criteria, disparities=2 * steps, lanes=2
-    )
+    keys = {"cost": "fuzzy" if len(criteria) == 3 else "sad", "criteria": criteria}
+    c = config(**keys, disparities=2 * steps, lanes=2)
+    c = config(**keys, disparities=2 * steps, lanes=2, stored_rows=int(share * 2 * c.reach_rows))
     random = Random(len(name))
     pixels = c.min_width + 5
+    lines = c.stored_rows + 2
 
-    def column(extreme: int | None = None) -> list[list[int]]:
-        return [
-            [random.getrandbits(8) if extreme is None else extreme for _ in range(3)]
-            for _ in range(c.min_height)
-        ]
+    def pixel(extreme: int | None = None) -> list[int]:
+        return [random.getrandbits(8) if extreme is None else extreme for _ in range(3)]
 
     # The last half is black against white: every sum reaches its maximum in the end, if it is wide enough.
-    left = [column(0 if p >= pixels // 2 else None) for p in range(pixels)]
-    right = [[column(255 if p >= pixels // 2 else None) for _ in range(steps)] for p in range(pixels)]
+    half = pixels // 2
+    rows = range(lines + c.min_height - 1)
+    left = [[pixel(0 if p >= half else None) for p in range(pixels)] for _ in rows]
+    right = [[[pixel(255 if p >= half else None) for p in range(pixels)] for _ in rows] for _ in range(steps)]
+
     clocks: list[Ports] = []
-    entered: list[tuple[int, int, int]] = []
-    for p in range(pixels):
-        for k in range(steps):
-            while random.random() < 0.3:
-                clocks.append({"valid": 0, "left": column(), "right": column()})
-            entered.append((len(clocks), p, k))
-            clocks.append({"valid": 1, "left": left[p], "right": right[p][k]})
+    entered: list[tuple[int, int, int, int]] = []
+    for y in range(lines):
+        new = range(y + c.stored_rows, y + c.min_height)
+        for p in range(pixels):
+            for k in range(steps):
+                while random.random() < 0.3:
+                    junk: Any = [[pixel() for _ in new] for _ in range(2)]
+                    clocks.append(
+                        {"valid": 0, "left": junk[0], "right": junk[1], "place": random.randrange(c.places)}
+                    )
+                entered.append((len(clocks), y, p, k))
+                clocks.append(
+                    {
+                        "valid": 1,
+                        "place": p * steps + k,
+                        "left": [left[row][p] for row in new],
+                        "right": [right[k][row][p] for row in new],
+                    }
+                )
     dut = SadCriteria(c, c.criteria)
     idle: list[Ports] = [{"valid": 0}] * dut.latency
     layout: Any = dut.o.shape()
     seen = observe(dut, [*clocks, *idle], "o")
 
-    expected = [window_sums(left, [row[k] for row in right], c) for k in range(steps)]
+    def columns(image: list[list[list[int]]], y: int) -> list[list[list[int]]]:
+        return [[image[row][p] for row in range(y, y + c.min_height)] for p in range(pixels)]
+
+    expected = {
+        (y, k): window_sums(columns(left, y), columns(right[k], y), c)
+        for y in range(c.stored_rows, lines)
+        for k in range(steps)
+    }
     support = c.reach_left + c.reach_right
     compared = 0
-    for clock, p, k in entered:
-        if p < support:
+    for clock, y, p, k in entered:
+        if p < support or y < c.stored_rows:
             continue
         sums = layout.from_bits(seen[clock + dut.latency])
-        assert [sums[f"s{i}"] for i in range(len(criteria))] == expected[k][p], (p, k)
+        assert [sums[f"s{i}"] for i in range(len(criteria))] == expected[y, k][p], (y, p, k)
         compared += 1
-    assert compared >= 6 * steps
+    assert compared >= 12 * steps

@@ -8,47 +8,20 @@ from random import Random
 from typing import Any
 
 import pytest
-from amaranth.hdl import Const, Module, Shape, Signal, signed
-from amaranth.lib import data, wiring
+from amaranth.hdl import Const, Module, Shape, Signal
+from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.pipeline import LEVELS, Pipeline, Word, clocks, start, travelling, tree_latency
+from softdepth.hdl.pipeline import Pipeline, Word, clocks, start, travelling, tree_latency
 
+from .arithmetic import Arithmetic, Range
 from .support import observe, piped
-
-Range = tuple[int, int]
-Build = Callable[[Pipeline, Sequence[Word]], Word]
-
-
-class Arithmetic(wiring.Component):
-    """One expression over inputs of given ranges; ``word`` is what the pipeline says of its result."""
-
-    def __init__(
-        self, ranges: Sequence[Range], operations: int, build: Build, *, levels: int = LEVELS
-    ) -> None:
-        self.ranges = ranges
-        self.levels = levels
-        self.latency = operations // levels
-        self.build = build
-        shapes = {f"a{k}": Shape.cast(range(low, high + 1)) for k, (low, high) in enumerate(ranges)}
-        super().__init__({"i": In(data.StructLayout(shapes)), "o": Out(signed(48))})
-
-    def elaborate(self, platform: object) -> Module:
-        m = Module()
-        pipeline = Pipeline(m, self.levels)
-        inputs = [
-            pipeline.input(self.i[f"a{k}"], high, minimum=low) for k, (low, high) in enumerate(self.ranges)
-        ]
-        self.word = self.build(pipeline, inputs)
-        assert pipeline.clock(self.word) == self.latency
-        m.d.comb += self.o.eq(self.word.value)
-        return m
 
 
 def check(
     ranges: Sequence[Range],
     operations: int,
-    build: Build,
+    build: Callable[[Pipeline, Sequence[Word]], Word],
     function: Callable[..., int],
     *,
     lowest: int | None = None,

@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import select
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -10,6 +11,7 @@ import serial
 
 from softdepth.errors import InputError, ToolError
 
+CHUNK = 1 << 16
 WRITE_SECONDS = 10.0
 """How long the system may take to accept a packet before the port counts as dead."""
 
@@ -50,10 +52,10 @@ class Port:
     def read(self, seconds: float) -> bytes:
         """The bytes that have come, as soon as there are any; none after `seconds`."""
         try:
-            self._serial.timeout = seconds
-            first = self._serial.read(1)
-            return first + self._serial.read(self._serial.in_waiting) if first else b""
-        except (OSError, TypeError) as error:  # a port that vanishes in a call may be None inside it
+            # pyserial would set up the whole port anew for each other timeout
+            ready, _, _ = select.select([self._serial], [], [], seconds)
+            return self._serial.read(CHUNK) if ready else b""
+        except (OSError, TypeError, ValueError) as error:  # pyserial's own state may be half closed
             raise self._gone() from error
 
     def drain(self) -> None:

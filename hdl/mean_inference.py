@@ -135,7 +135,9 @@ class MeanInference(wiring.Component):
         bits = self._config.membership_bits
         fields, below = [], []
         for i in (1, 2, 0):
-            value, label_bits = self.i[f"s{i}"], self._config.criteria[i].label_bits
+            label_bits = self._config.criteria[i].label_bits
+            value = self.i[f"s{i}"]
+            value = Cat(value, Const(0, max(0, label_bits + 1 - len(value))))  # it may never reach T
             limited = value[label_bits + 1 :].any()
             low = ~value[label_bits] & ~limited
             fraction = value[label_bits - bits : label_bits] | limited.replicate(bits)

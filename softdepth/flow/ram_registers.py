@@ -33,7 +33,7 @@ def _absorb(module: dict[str, Any]) -> int:
                     readers[bit].append((name, port))
     exported = {bit for port in module["ports"].values() for bit in port["bits"]}
     removed = 0
-    for cell in [cell for cell in cells.values() if cell["type"] == RAM]:
+    for cell in [cell for cell in cells.values() if cell["type"] == RAM and not _double(cell)]:
         for side in "AB":
             used = {
                 port: bits[0]
@@ -56,6 +56,11 @@ def _absorb(module: dict[str, Any]) -> int:
                 cell["connections"][port] = cells.pop(name)["connections"]["Q"]
                 removed += 1
     return removed
+
+
+def _double(cell: dict[str, Any]) -> bool:
+    """Whether a word takes the data pins of both ports."""
+    return any(int(cell["parameters"][f"DATA_WIDTH_{side}"], 2) > OUTPUTS for side in "AB")
 
 
 def _register(cells: dict[str, Any], readers: list[tuple[str, str]], exported: bool) -> str | None:

@@ -4,8 +4,9 @@ import copy
 
 import pytest
 
+from softdepth.config import Config
 from softdepth.errors import ToolError
-from softdepth.flow.synthesis import TOP, Netlist, cells
+from softdepth.flow.synthesis import TOP, Netlist, cells, core_netlist
 from softdepth.golden import datasets, fixed_model
 from softdepth.sim.compare import Mismatch, mismatches
 from softdepth.sim.frames import run_frames
@@ -16,19 +17,38 @@ CROP = (slice(200, 224), slice(300, 364))
 """Rows and columns of Motorcycle: edges at several depths."""
 
 
-def compare(netlist: Netlist) -> list[Mismatch]:
-    """Where a netlist of `SMALL` differs from the fixed model on a crop of a real image."""
+WIDE = Config.preset("sad").override(["disparities=4", "lanes=2", "max_width=1280", "stored_rows=1"])
+"""Lines as long as users have them: block RAMs of 2, 4 and 9 bits, with the registers they have inside."""
+
+
+def compare(netlist: Netlist, config: Config = SMALL) -> list[Mismatch]:
+    """Where a core's netlist differs from the fixed model on a crop of a real image."""
     pair = datasets.load("motorcycle")
     left, right = pair.left[CROP], pair.right[CROP]
-    expected = fixed_model.disparity(left, right, SMALL)
-    assert len(set(expected.disparity.ravel().tolist())) == SMALL.disparities, "the crop is too plain"
-    found = run_frames(SMALL, [(left, right)], verilog=netlist_verilog(netlist))
+    expected = fixed_model.disparity(left, right, config)
+    assert len(set(expected.disparity.ravel().tolist())) == config.disparities, "the crop is too plain"
+    found = run_frames(config, [(left, right)], verilog=netlist_verilog(netlist))
     return list(mismatches([expected], found.maps))
 
 
 @pytest.mark.slow
 def test_the_netlist_equals_the_fixed_model(small_netlist):
     assert compare(small_netlist) == []
+
+
+@pytest.mark.slow
+def test_block_ram_with_its_own_registers():
+    """They are used, and taken for one clock more or less they would shift the image."""
+    netlist = core_netlist(WIDE)
+    memories = [c for c in netlist["modules"][TOP]["cells"].values() if c["type"] == "DP16KD"]
+    modes = [(c["parameters"]["REGMODE_A"], c["parameters"]["REGMODE_B"]) for c in memories]
+    assert len(modes) > 4
+    assert all("OUTREG" in mode for mode in modes)
+    assert {int(c["parameters"]["DATA_WIDTH_B"], 2) for c in memories} == {2, 4, 9}
+    assert compare(netlist, WIDE) == []
+    for cell in memories:
+        cell["parameters"]["REGMODE_B"] = cell["parameters"]["REGMODE_A"] = "NOREG"
+    assert compare(netlist, WIDE), "without the registers nothing changed"
 
 
 @pytest.mark.slow

@@ -14,75 +14,42 @@ from pathlib import Path
 from typing import Any, Literal, Self, get_args
 
 import tomli_w
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, Field, ValidationError, model_validator
 
+from softdepth.criteria import (
+    CHANNEL_BITS,
+    CHANNELS,
+    LITERAL_INPUT,
+    Compensation,
+    Criterion,
+    Frozen,
+    Sad,
+)
 from softdepth.errors import ConfigError
+from softdepth.presets import PRESETS
 from softdepth.rules import CONCLUSIONS, RuleBaseName, factorised_thetas, weight
 from softdepth.soft import soft_min_1_table
 
+__all__ = [
+    "CHANNELS",
+    "CHANNEL_BITS",
+    "LITERAL_INPUT",
+    "MULTIPLIER_BITS",
+    "OPERATORS",
+    "PRESETS",
+    "Compensation",
+    "Config",
+    "Criterion",
+    "Operator",
+    "Sad",
+]
+
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
-Reading = Literal["off", "top", "literal"]
 
 MULTIPLIER_BITS = 18
-CHANNELS = 3
-CHANNEL_BITS = 8
-LITERAL_INPUT = 1000
-"""The value that the compensating rule's literal reading gives every criterion."""
 
 
-class _Frozen(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-
-class Sad(_Frozen):
-    """Criterion: sum of absolute RGB differences over ``window x window`` pixels (eq. 7).
-
-    The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
-    at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T.
-    """
-
-    kind: Literal["sad"] = "sad"
-    window: int = Field(default=3, ge=1, le=15)
-    dx: int = Field(default=0, ge=-16, le=16)
-    label_bits: int = Field(default=12, ge=4, le=20)
-
-    @model_validator(mode="after")
-    def _odd(self) -> Self:
-        if self.window % 2 == 0:
-            raise ValueError(f"window is {self.window}, but a window has a centre: use an odd size")
-        return self
-
-    @property
-    def radius(self) -> int:
-        """Pixels from the window's centre to its edge."""
-        return self.window // 2
-
-    @property
-    def maximum(self) -> int:
-        """The largest value the sum can take."""
-        return self.window**2 * CHANNELS * (2**CHANNEL_BITS - 1)
-
-
-# A further criterion is a further model here, told apart by its `kind`.
-Criterion = Sad
-
-
-class Compensation(_Frozen):
-    """The compensating rule against false near objects (paper, section 4, step 3).
-
-    Candidates with ``d >= min_disparity`` whose SAD exceeds ``threshold`` have all criteria
-    replaced: by the top label 2T (``top``) or by 1000 (``literal``). ``criterion`` says which SAD is
-    looked at: 0 is the centred 3x3 one of eq. 7, 1 to 3 the criterion of that number. The paper's
-    Fig. 4 is met by ``top`` looking at criterion 3.
-    """
-
-    reading: Reading = "off"
-    threshold: int = Field(default=1200, ge=0)
-    min_disparity: int = Field(default=32, ge=0)
-    criterion: int = Field(default=0, ge=0, le=3)
-
-
-class Config(_Frozen):
+class Config(Frozen):
     """A stereo core, complete: method, ranges and parallelism.
 
     Throughput is one result per `steps` clocks. See ``docs/configuration.md`` for every key.
@@ -359,17 +326,5 @@ def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
     problem, _, remedy = message.partition(": ")
     return ConfigError(problem, remedy or "change one of the two")
 
-
-PRESETS: dict[str, dict[str, Any]] = {
-    "paper": {"stored_rows": 2},
-    # 3x3 sums are small: labels at 2**9 fit them better than the paper's, and 5 bits are then enough.
-    "lite": {
-        "membership_bits": 5,
-        "stored_rows": 2,
-        "criteria": [{"window": 3, "dx": dx, "label_bits": 9} for dx in (-2, 0, 2)],
-    },
-    "sad": {"cost": "sad", "criteria": [{"window": 3}], "stored_rows": 2},
-}
-"""What each preset changes in the defaults: the paper's nest, a small core, and the plain baseline."""
 
 OPERATORS: tuple[Operator, ...] = get_args(Operator)

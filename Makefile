@@ -16,7 +16,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast bench compare paper bitstream program utilization lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare paper bitstream program utilization savings lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -30,6 +30,9 @@ test: $(READY) ## the whole test suite (a part of it: make test TESTS=tests/gold
 
 test-fast: $(READY) ## the tests that take seconds
 	@$(BIN)/pytest -n auto --dist worksteal -m "not slow" $(TESTS)
+
+test-full: $(READY) ## what is too long for every day: whole Middlebury frames with every operator
+	@$(BIN)/pytest -n auto --dist worksteal -m full $(TESTS)
 
 bench: $(READY) ## measure speed and write docs/benchmarks.md
 	@$(BIN)/softdepth bench
@@ -46,6 +49,9 @@ compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md
 		done; \
 	done
 	@$(BIN)/python -m softdepth.compare.document out/compare
+
+savings: $(READY) ## what each saving of area buys a lane: docs/area.md
+	@$(BIN)/python -m softdepth.flow.savings
 
 lint: $(READY) ## style, likely bugs and formatting
 	@$(BIN)/ruff check $(SOURCES)

@@ -14,6 +14,7 @@ import typer
 
 from softdepth import measure, screen
 from softdepth.config import PRESETS, Config
+from softdepth.errors import InputError
 
 if TYPE_CHECKING:
     from softdepth.golden.images import StereoPair
@@ -39,6 +40,8 @@ def bench(
     from softdepth.golden import datasets
     from softdepth.golden.writers import write_atomically
 
+    if not output.is_dir():
+        raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
     pair = datasets.load(dataset)
     figures = {
         "pair": pair.name,

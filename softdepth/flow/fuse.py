@@ -36,14 +36,15 @@ class _Module:
     def __init__(self, module: dict[str, Any]) -> None:
         self._cells: dict[str, dict[str, Any]] = module["cells"]
         self._tables: dict[Bit, str] = {}
-        self._readers: dict[Bit, list[tuple[str, str]]] = defaultdict(list)
+        self._readers: dict[Bit, set[tuple[str, str]]] = defaultdict(set)
         for name, cell in self._cells.items():
             for port, bits in cell["connections"].items():
                 if cell["type"] == "LUT4" and port == "Z":
                     self._tables[bits[0]] = name
                 elif cell["port_directions"][port] != "output":
                     for bit in bits:
-                        self._readers[bit].append((name, port))
+                        if not isinstance(bit, str):
+                            self._readers[bit].add((name, port))
         self._ports = {bit for port in module["ports"].values() for bit in port["bits"]}
 
     def fuse(self) -> int:
@@ -76,7 +77,7 @@ class _Module:
         del self._cells[name], self._tables[output]
         for port, bits in table["connections"].items():
             if port != "Z":
-                self._readers[bits[0]].remove((name, port))
+                self._readers[bits[0]].discard((name, port))
         return True
 
     def _rewire(self, name: str, half: str, init: int, bits: list[Bit]) -> None:
@@ -84,11 +85,10 @@ class _Module:
         for pin, bit in zip(PINS, bits, strict=True):
             port = pin + half
             old = cell["connections"][port][0]
-            if not isinstance(old, str):
-                self._readers[old].remove((name, port))
+            self._readers[old].discard((name, port))
             cell["connections"][port] = [bit]
             if not isinstance(bit, str):
-                self._readers[bit].append((name, port))
+                self._readers[bit].add((name, port))
         cell["parameters"][f"INIT{half}"] = f"{init:016b}"
 
 

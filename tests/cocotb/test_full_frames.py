@@ -1,10 +1,10 @@
-"""Whole real frames in preset `paper`, every pixel."""
+"""Whole real frames with the criteria of preset `paper`, every pixel."""
 
 from pathlib import Path
 
 import pytest
 
-from softdepth.config import Config
+from softdepth.config import OPERATORS, Config, Operator
 from softdepth.golden.datasets import load
 from tests.cocotb.conftest import Exact
 
@@ -22,3 +22,14 @@ def test_middlebury(exact: Exact, data_dir: Path) -> None:
     """Teddy, Cones and Venus, one behind the other in one stream."""
     pairs = [load(f"middlebury:{scene}") for scene in ("teddy", "cones", "venus")]
     exact(Config.preset("paper"), [(pair.left, pair.right) for pair in pairs])
+
+
+@pytest.mark.full
+@pytest.mark.slow
+@pytest.mark.middlebury
+@pytest.mark.parametrize("operator", [operator for operator in OPERATORS if operator != "mean"])
+def test_middlebury_with_every_operator(exact: Exact, data_dir: Path, operator: Operator) -> None:
+    """The same with the other operators, in as many lanes as PROD's multipliers allow."""
+    pairs = [load(f"middlebury:{scene}") for scene in ("teddy", "cones", "venus")]
+    config = Config.preset("paper").override([f"operator={operator}", "lanes=4"])
+    exact(config, [(pair.left, pair.right) for pair in pairs])

@@ -19,7 +19,7 @@ def test_column_ends_in_the_new_pixel(rows: int, rate: float) -> None:
     idle: Ports = {"en": 0}
     clocks: list[Ports] = []
     entered: list[tuple[int, list[int]]] = []  # the clock of each pixel, and the column it completes
-    for width, height in [(7, rows + 2), (MAX_WIDTH, rows + 1), (2, rows + 3), (5, 1), (5, rows + 2)]:
+    for width, height in [(7, rows + 2), (MAX_WIDTH, rows + 1), (3, rows + 3), (5, 1), (5, rows + 2)]:
         image = [[random.getrandbits(WIDTH_BITS) for _ in range(width)] for _ in range(height)]
         for y in range(height):
             for x in range(width):

@@ -53,4 +53,6 @@ def test_costs_of_the_lines_before(rows: int, places: int, widths: list[int], ga
 
 
 def test_bits() -> None:
-    assert RowMemory(range(MAXIMUM + 1), 6, 5120).bits == 6 * 10 * 5120
+    dut = RowMemory(range(MAXIMUM + 1), 6, 500)
+    assert dut.bits == 6 * 10 * 500
+    observe(dut, [{}], "rows")

@@ -1,9 +1,10 @@
 """``python -m softdepth.readme RESULTS``: put a run's figures and picture into README.md.
 
-The figures in the README are measured ones: they are written by this program from ``report.json``, between
-the markers, and by nobody's hand.
+The figures in the README are measured ones: they are written by this program from ``report.json`` and
+``docs/utilization.json``, between the markers, and by nobody's hand.
 """
 
+import json
 import sys
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from softdepth.measure import Engine
 from softdepth.report import Report
 
 PART = "figures"
+AREA = "area"
+UTILIZATION = Path("docs/utilization.json")
 BEGIN, END = markers.markers(PART)
 PICTURE = Path("docs/images/motorcycle.png")
 
@@ -53,6 +56,30 @@ def renew(text: str, report: Report) -> str:
     return markers.renew(text, "README.md", PART, figures(report))
 
 
+def area(utilization: str) -> str:
+    """The fastest core of each preset with MEAN, among the rows of ``utilization.json``."""
+    from softdepth.flow.utilization import Row
+
+    rows = [Row.model_validate(row) for row in json.loads(utilization)["rows"]]
+    best: dict[str, Row] = {}
+    for row in rows:
+        known = best.get(row.preset)
+        if row.operator in ("mean", "-") and (known is None or row.mde_s > known.mde_s):
+            best[row.preset] = row
+    return "\n".join(
+        [
+            "| core | part | LUT4 (per lane) | flip-flops | block RAMs | multipliers | clock | Mpixel/s |",
+            "|---|---|---:|---:|---:|---:|---:|---:|",
+            *(
+                f"| `{r.preset}`, {r.disparities} disparities, {r.lanes} lanes, {r.width} wide | {r.device}"
+                f" | {r.lut4:,} ({r.lut4_per_lane:.0f}) | {r.ff:,} | {r.ebr} | {r.dsp} | {r.fmax_mhz:.1f} MHz"
+                f" | {r.mpixel_s:.1f} |"
+                for r in best.values()
+            ),
+        ]
+    )
+
+
 def main(results: Path, project: Path) -> None:
     """Renew README.md in `project` from the folder of a run."""
     from softdepth.golden.writers import write_atomically
@@ -61,6 +88,8 @@ def main(results: Path, project: Path) -> None:
         report = Report.model_validate_json((results / "report.json").read_text())
         readme = project / "README.md"
         renewed = renew(readme.read_text(), report)
+        table = area((project / UTILIZATION).read_text())
+        renewed = markers.renew(renewed, "README.md", AREA, table)
         write_atomically(readme, renewed.encode())
         (project / PICTURE).parent.mkdir(parents=True, exist_ok=True)
         shrink(results / "overview.png", project / PICTURE)

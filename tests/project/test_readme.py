@@ -7,6 +7,7 @@ import pytest
 from softdepth import readme
 from softdepth.config import Config
 from softdepth.errors import InputError
+from softdepth.markers import markers
 from softdepth.measure import Engine
 from softdepth.report import ENGINES, Accuracy, Report
 
@@ -34,6 +35,13 @@ def report() -> Report:
         tools={},
     )
 
+
+ROW = dict(
+    device="LFE5U-85F-6", preset="paper", operator="mean", disparities=64, lanes=4, width=1280, lut4=4000,
+    ff=5000, ebr=20, dsp=8, fmax_mhz=120.0, cycles_per_pixel=16, mpixel_s=7.5, mde_s=480.0,
+    mde_s_per_klut=120.0, lut4_per_lane=1000.0,
+)  # fmt: skip
+"""A row of the table of area and speed."""
 
 TEXT = f"above\n{readme.BEGIN}\nold 99.99 %\n{readme.END}\nbelow\n"
 
@@ -70,9 +78,16 @@ def test_main_renews_text_and_picture(report, project, tmp_path):
     home.mkdir()
     (results / "report.json").write_text(json.dumps(report.model_dump()))
     (results / "overview.png").write_bytes((project / readme.PICTURE).read_bytes())
-    (home / "README.md").write_text(TEXT)
+    (home / "docs").mkdir()
+    (home / readme.UTILIZATION).write_text(json.dumps({"rows": [ROW]}))
+    first, last = markers(readme.AREA)
+    area = f"{first}\nold\n{last}\n"
+    (home / "README.md").write_text(TEXT + area)
     readme.main(results, home)
-    assert (home / "README.md").read_text() == readme.renew(TEXT, report)
+    found = (home / "README.md").read_text()
+    assert found.startswith(readme.renew(TEXT, report))
+    assert readme.area(json.dumps({"rows": [ROW]})) in found
+    assert "old" not in found
     assert (home / readme.PICTURE).stat().st_size > 0
 
 
@@ -81,3 +96,15 @@ def test_the_projects_readme_shows_measured_figures(project):
     between = text.split(readme.BEGIN)[1].split(readme.END)[0]
     assert Config.preset("paper").hash in between, "the preset changed: make readme"
     assert "**0 of 370,500 pixels** differ" in between
+
+
+def test_the_area_is_that_of_the_fastest_core_of_each_preset():
+    fast = {**ROW, "lanes": 32, "lut4": 31000, "mde_s": 3840.0, "mpixel_s": 60.0, "lut4_per_lane": 968.75}
+    other = {**fast, "operator": "min", "mde_s": 9999.0}
+    plain = {**ROW, "preset": "sad", "operator": "-", "lut4": 900}
+    table = readme.area(json.dumps({"rows": [ROW, fast, other, plain]})).splitlines()
+    assert len(table) == 4
+    assert table[2].startswith(
+        "| `paper`, 64 disparities, 32 lanes, 1280 wide | LFE5U-85F-6 | 31,000 (969) |"
+    )
+    assert table[3].startswith("| `sad`")

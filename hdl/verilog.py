@@ -1,6 +1,7 @@
 """Verilog of a core, for simulators and other people's flows."""
 
 import gc
+import re
 
 from amaranth.back import verilog
 from amaranth.lib.wiring import Component
@@ -9,6 +10,14 @@ from softdepth.config import Config
 from softdepth.hdl.core import StereoCore
 
 TOP = "softdepth_core"
+
+
+_CLEARED = re.compile(
+    r"^  initial begin\n"
+    r"((?:    (\w+)\[\d+\] = (\d+'h0+);\n)(?:    \2\[\d+\] = \3;\n)*)"
+    r"  end\n",
+    re.MULTILINE,
+)
 
 
 def to_verilog(design: Config | Component, name: str = TOP) -> str:
@@ -22,7 +31,21 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
     enabled = gc.isenabled()
     gc.disable()
     try:
-        return verilog.convert(component, name=name, emit_src=False)
+        text = verilog.convert(component, name=name, emit_src=False)
     finally:
         if enabled:
             gc.enable()
+    return _CLEARED.sub(_loop, text)
+
+
+def _loop(found: re.Match[str]) -> str:
+    """A memory cleared by a loop, where Amaranth writes a line for each word: megabytes in deep memories."""
+    lines, memory, zero = found.groups()
+    words = lines.count("\n")
+    return (
+        f"  initial begin : clear_{memory}\n"
+        f"    integer k;\n"
+        f"    for (k = 0; k < {words}; k = k + 1)\n"
+        f"      {memory}[k] = {zero};\n"
+        f"  end\n"
+    )

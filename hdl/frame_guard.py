@@ -81,10 +81,12 @@ class FrameGuard(wiring.Component):
         here = Signal.like(x)
         on_first_line = Signal()
         m.d.comb += [here.eq(Mux(starts, 0, x)), on_first_line.eq(starts | first_line)]
+        # Known a pixel ahead. A line has three pixels or more, so that its first is not its last.
+        at_last = Signal()
         full = Signal()
         short = Signal()
         m.d.comb += [
-            full.eq(here == Mux(on_first_line, config.max_width - 1, last_x)),
+            full.eq(at_last & ~starts),
             short.eq(eol & Mux(on_first_line, here < config.min_width - 1, ~full)),
         ]
 
@@ -96,12 +98,19 @@ class FrameGuard(wiring.Component):
         height = Signal.like(rows)  # 0: not known yet
         row = Signal.like(y)
         m.d.comb += row.eq(Mux(starts, 0, y))
+        # The row is the last possible, or the last of the learnt height: known a row ahead.
+        highest = Signal()
+        height_ends = Signal()
         ends_here = Signal()
         too_high = Signal()
-        m.d.comb += ends_here.eq(
-            pair.eof | (row == config.max_height - 1) | (~marks_end & (height == row + 1))
-        )
-        m.d.comb += too_high.eq(marks_end & (row == config.max_height - 1) & ~pair.eof)
+        m.d.comb += [
+            ends_here.eq(
+                pair.eof
+                | (highest & ~on_first_line)
+                | (~marks_end & Mux(on_first_line, height == 1, height_ends))
+            ),
+            too_high.eq(marks_end & highest & ~on_first_line & ~pair.eof),
+        ]
         with m.If(self.i.valid & self.i.ready & pair.eof):
             m.d.sync += marks_end.eq(1)
 
@@ -115,14 +124,28 @@ class FrameGuard(wiring.Component):
 
         m.d.comb += [item.left.eq(pair.left), item.right.eq(pair.right), item.x.eq(here)]
 
-        def count(name: str) -> None:
+        # Counted a clock later: the counters are not part of the longest path.
+        events = {name: Signal(name=f"counts_{name}") for name in Status.members}
+        for name, event in events.items():
             counter = self.status[name]
-            with m.If(counter != 2**COUNTER_BITS - 1):
+            m.d.sync += event.eq(0)
+            with m.If(event & (counter != 2**COUNTER_BITS - 1)):
                 m.d.sync += counter.eq(counter + 1)
+
+        def count(name: str) -> None:
+            m.d.sync += events[name].eq(1)
 
         def finish_line(last: Signal, ends: Signal) -> None:
             """The line's last pixel leaves, at column ``last``."""
-            m.d.sync += [x.eq(0), y.eq(row + 1), first_line.eq(0), last_x.eq(last)]
+            m.d.sync += [
+                x.eq(0),
+                at_last.eq(0),
+                y.eq(row + 1),
+                highest.eq(row == config.max_height - 2),
+                height_ends.eq(height == row + 2),
+                first_line.eq(0),
+                last_x.eq(last),
+            ]
             with m.If(ends):
                 m.d.sync += in_frame.eq(0)
 
@@ -191,6 +214,7 @@ class FrameGuard(wiring.Component):
                     dropping.eq(0),
                     skipping.eq(0),
                     x.eq(here + 1),
+                    at_last.eq(~starts & (x + 1 == Mux(first_line, config.max_width - 1, last_x))),
                     damaged.eq(item.damaged),
                     padded_left.eq(pair.left),
                     padded_right.eq(pair.right),

@@ -19,7 +19,7 @@ def utilization(
             "--row", metavar="PRESET/OPERATOR/LANES", help="Measure this row; repeatable [default: all]."
         ),
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="The rows of four lanes only.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="The rows of eight lanes with MEAN only.")] = False,
     disparities: Annotated[
         int, typer.Option("--disparities", metavar="N", help="Candidates per pixel.")
     ] = 64,

@@ -3,20 +3,25 @@
 from collections.abc import Callable
 
 import pytest
-from amaranth.hdl import Module
+from amaranth.hdl import Const, Module, Value
 from amaranth.lib import fifo, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth import rules
 from softdepth.config import Config
 from softdepth.errors import ToolError
-from softdepth.hdl import core, line_buffer, rule_array
+from softdepth.hdl import core, line_buffer, mean_inference, row_memory, rule_array
+from softdepth.hdl.criteria import column_sad
+from softdepth.hdl.pipeline import Pipeline, Word
 from softdepth.hdl.verilog import to_verilog
+from softdepth.hdl.wires import flag
 from softdepth.sim.stalls import Pauses, Stalls
 from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import frames_for
 
 CONFIG = Config.preset("paper").override(["disparities=8", "lanes=4"])
+RULES = CONFIG.override(["operator=min"])
+"""With the rule array, which MEAN has no need of."""
 STALLS = Stalls(output=Pauses("bursts", probability=0.5, burst=100, seed=5))
 
 
@@ -74,10 +79,37 @@ def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core, "SyncFIFOBuffered", Leaky)
 
 
-FAULTS: dict[Callable[[pytest.MonkeyPatch], None], type[Exception]] = {
-    break_a_rule: AssertionError,
-    shift_the_line_buffer: AssertionError,
-    drop_under_back_pressure: ToolError,
+def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The two remembered rows change places: sums over all rows are as before, those over fewer are not."""
+
+    class Swapped(row_memory.RowMemory):
+        def elaborate(self, platform: object) -> Module:
+            m = Module()
+            m.submodules.inner = inner = row_memory.RowMemory(range(766), 2, self._places)
+            m.d.comb += [inner.valid.eq(self.valid), inner.place.eq(self.place), inner.newest.eq(self.newest)]
+            m.d.comb += [self.rows[k].eq(inner.rows[1 - k]) for k in range(2)]
+            return m
+
+    monkeypatch.setattr(column_sad, "RowMemory", Swapped)
+
+
+def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
+    """MEAN's closed form takes criteria 2 and 3 as lying on one side of their labels."""
+
+    def never(pipeline: Pipeline, function: Callable[..., Value], *words: Word) -> Word:
+        found = flag(pipeline, function, *words)
+        is_same = len(words) == 2 and all(word.maximum == 1 for word in words)
+        return Word(Const(1, 1), 0, 1, found.time) if is_same else found
+
+    monkeypatch.setattr(mean_inference, "flag", never)
+
+
+FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception]]] = {
+    break_a_rule: (RULES, AssertionError),
+    forget_a_sign: (CONFIG, AssertionError),
+    take_rows_in_the_wrong_order: (CONFIG, AssertionError),
+    shift_the_line_buffer: (CONFIG, AssertionError),
+    drop_under_back_pressure: (CONFIG, ToolError),
 }
 
 
@@ -85,12 +117,13 @@ FAULTS: dict[Callable[[pytest.MonkeyPatch], None], type[Exception]] = {
 def test_fault_is_caught(
     fault: Callable[[pytest.MonkeyPatch], None], exact: Exact, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pairs = frames_for(CONFIG, seed=1)
-    sound = to_verilog(CONFIG)
+    config, error = FAULTS[fault]
+    pairs = frames_for(config, seed=1)
+    sound = to_verilog(config)
     with monkeypatch.context() as patched:
         fault(patched)
-        broken = to_verilog(CONFIG)
+        broken = to_verilog(config)
     assert broken != sound
-    exact(CONFIG, pairs, verilog=sound, stalls=STALLS)
-    with pytest.raises(FAULTS[fault]):
-        exact(CONFIG, pairs, verilog=broken, stalls=STALLS)
+    exact(config, pairs, verilog=sound, stalls=STALLS)
+    with pytest.raises(error):
+        exact(config, pairs, verilog=broken, stalls=STALLS)

@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from amaranth.hdl import Array, Const, Module, Mux, Shape, Signal, Value, ValueLike
+
+T = TypeVar("T")
 
 SMALL_TABLE = 128
 """Tables up to this length are selected from entry by entry, which is smaller but slow to elaborate."""
@@ -142,7 +145,7 @@ class Pipeline:
         """``word * 2**bits``: wires only."""
         return Word(word.value << bits, word.minimum << bits, word.maximum << bits, word.time)
 
-    def tree(self, operation: Callable[[Word, Word], Word], words: Sequence[Word]) -> Word:
+    def tree(self, operation: Callable[[T, T], T], words: Sequence[T]) -> T:
         """Reduce ``words`` with a balanced tree, in ``tree_latency(len(words))`` operations."""
         level = list(words)
         while len(level) > 1:

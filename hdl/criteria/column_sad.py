@@ -98,7 +98,7 @@ class ColumnSad(wiring.Component):
                 [row for offset, row in rows.items() if inner < abs(offset) <= radius],
             )
             inner = radius
-            total = ring if total is None else _add(pipeline, total, ring)
+            total = _add(pipeline, total, ring) if total else ring
             assert total.missing is None
             cost = pipeline.at(total.word, self.latency * LEVELS)
             m.d.comb += self.o[f"c{window}"].eq(cost.value)

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from softdepth.config import Config, Operator
-from softdepth.config import Reading as Rule
+from softdepth.criteria import Reading as Rule
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.metrics import Metrics, evaluate, paper_rmse

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from softdepth.config import Config, Operator
-from softdepth.config import Reading as Rule
+from softdepth.criteria import Reading as Rule
 from softdepth.golden.truth import View
 
 Method = Literal["sad", "fmcdm", "prototype", "stereobm", "stereosgbm"]

@@ -231,15 +231,16 @@ class FrameGuard(wiring.Component):
                     count("long_lines")
                     m.d.sync += skipping.eq(1)
 
-        with m.If(self.i.valid & self.i.ready):
-            counted = Signal.like(rows)
-            m.d.comb += counted.eq(Mux(starts, 0, rows))
-            with m.If(eol & (counted != config.max_height)):
-                m.d.sync += rows.eq(counted + 1)
-            with m.Else():
-                m.d.sync += rows.eq(counted)
-            with m.If(starts & (rows != 0)):
-                m.d.sync += [previous_rows.eq(rows), agreed.eq(rows == previous_rows)]
-                with m.If((height == 0) | (agreed & (rows == previous_rows))):
-                    m.d.sync += height.eq(rows)
+        # A clock later, like the counters: nothing looks at the height so soon.
+        began = Signal()
+        line_ended = Signal()
+        accepted = self.i.valid & self.i.ready
+        m.d.sync += [began.eq(accepted & starts), line_ended.eq(accepted & eol)]
+        counted = Signal.like(rows)
+        m.d.comb += counted.eq(Mux(began, 0, rows))
+        m.d.sync += rows.eq(counted + (line_ended & (counted != config.max_height)))
+        with m.If(began & (rows != 0)):
+            m.d.sync += [previous_rows.eq(rows), agreed.eq(rows == previous_rows)]
+            with m.If((height == 0) | (agreed & (rows == previous_rows))):
+                m.d.sync += height.eq(rows)
         return m

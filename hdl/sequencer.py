@@ -63,6 +63,7 @@ class Sequencer(wiring.Component):
         y = Signal(range(support_y + 1))  # stops counting at the first row with inner pixels
         room = Signal(range(config.disparities))  # stops counting at the last candidate
         width = Signal(range(config.max_width))  # last column of the line before
+        width_less_1 = Signal.like(width)
         row = Signal.like(y)
         # Both rows lie below a frame's first, so that its first pixel needs no look at `row`.
         on_first_row = Signal()  # `row` is the first that completes a result's support
@@ -128,7 +129,7 @@ class Sequencer(wiring.Component):
                 tags.eof.eq(draining & at_eol & (rows_left == 0)),
                 tags.damaged.eq(Mux(draining, drain_damaged, item.damaged)),
                 fresh.eq(0),
-                out_left.eq(Mux(begins, width, out_left) - 1),
+                out_left.eq(Mux(begins, width_less_1, out_left - 1)),
                 out_last.eq((out_left == 1) & ~begins),
             ]
             with m.If(at_eol):
@@ -153,7 +154,7 @@ class Sequencer(wiring.Component):
             with m.If(item.sof):
                 m.d.sync += [y.eq(0), on_first_row.eq(0), on_inner_rows.eq(0)]
             with m.If(item.eol):
-                m.d.sync += width.eq(item.x)
+                m.d.sync += [width.eq(item.x), width_less_1.eq(item.x - 1)]
                 with m.If(row != support_y):
                     m.d.sync += [
                         y.eq(row + 1),

@@ -43,7 +43,7 @@ def degrees(config, criteria):
 def sums(config, criteria):
     """N and S before anything is made of their sign, from the conclusions."""
     found = np.array([y for _, y in conclude(config, degrees(config, criteria))], np.int64)
-    return np.arange(10, -1, -1) @ found, found.sum(axis=0)
+    return np.arange(5, -6, -1) @ found, found.sum(axis=0)
 
 
 @pytest.mark.parametrize("bits", [2, 3, 5])
@@ -73,7 +73,7 @@ def test_the_denominator_is_above_zero(keys, bits, rules):
     config = make(bits, rules=rules, **keys)
     n, s = fixed_model.fraction(config, 0, every_input(config))
     assert s.min() > 0
-    assert n.min() >= 0
+    assert (abs(n) <= 5 * s).all()  # the cost is a mean of the weights
 
 
 def test_the_denominator_of_soft_min_1_in_floating_point_is_above_zero():

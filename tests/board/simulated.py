@@ -24,7 +24,7 @@ DIVISOR = MIN_DIVISOR
 """Clocks per bit: as few as the gateware takes."""
 
 BOARD = replace(BOARDS["ulx3s-85f"], baud=BOARDS["ulx3s-85f"].core_hz // DIVISOR)
-START_SECONDS = 60
+START_SECONDS = 240
 
 
 @dataclass

@@ -21,7 +21,7 @@ from softdepth.report import FILES
 from tests.board.fake import FakeBoard, Misdeeds, plugged_in
 
 BAUD = 2_000_000
-FAST = 0.1
+FAST = 0.25
 """Seconds to wait for the answer of a board that is a thread."""
 
 

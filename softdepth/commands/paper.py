@@ -10,7 +10,7 @@ from softdepth.config import OPERATORS
 from softdepth.errors import ConfigError, InputError
 
 EXIT_MISMATCH = 1
-UTILIZATION = Path("docs/utilization.json")
+AREA = Path("docs/area.json")
 
 
 def paper(
@@ -58,7 +58,7 @@ def paper(
     place = cache.folder() if cached else None
     simulated = work.gateware(chosen, wanted_scenes, wanted_operators) if engine == "rtl" else []
     with results.result_folder(output) as folder:
-        speeds = speed.with_luts(evaluation.speeds_of(chosen, place), UTILIZATION)
+        speeds = speed.with_luts(evaluation.speeds_of(chosen, place), AREA)
         maps = evaluation.maps_of(chosen, cache.MapCache(place), jobs or work.cores(), simulated)
         found = assemble(maps, chosen, speeds)
         evaluation.write(folder, found, maps, chosen)

@@ -1,9 +1,12 @@
-"""``python -m softdepth.flow.savings``: what each saving of area buys a lane; renews docs/area.md.
+"""``python -m softdepth.flow.savings``: what each saving of area buys a lane, and what operators cost.
+
+Renews docs/area.md, and writes docs/area.json for programs.
 
 A lane is all that is there once per candidate evaluated in a clock, but for its node of the argmin tree.
 Each saving is left out by itself, and all of them together.
 """
 
+import json
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -11,16 +14,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from softdepth import markers, screen
-from softdepth.config import Config
+from softdepth.config import OPERATORS, Config
 from softdepth.errors import InputError, SoftdepthError
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.limits import taken
 from softdepth.flow.ram_registers import absorb_ram_registers
-from softdepth.flow.synthesis import NetlistPass, synthesise, to_rtlil
+from softdepth.flow.synthesis import NetlistPass, cells, synthesise, to_rtlil
 
 DOCUMENT = Path("docs/area.md")
-PART = "savings"
+FIGURES = DOCUMENT.with_suffix(".json")
 PASSES: tuple[NetlistPass, ...] = (fuse_carries, absorb_ram_registers)
+MOST_MULTIPLIERS = 9999
+"""Only one lane is built, whatever a part could hold of them."""
 CORE = ("disparities=64", "lanes=32", "max_width=1280")
 
 
@@ -49,14 +54,15 @@ VARIANTS = (
 
 
 def measure(config: Config, variant: Variant) -> dict[str, int]:
-    """LUT4s, flip-flops and block RAMs of one lane."""
+    """LUT4s, flip-flops, block RAMs and multipliers of one lane."""
     from softdepth.hdl.lane import Lane  # elaboration is slow to import
 
     text = to_rtlil(Lane(config.override(variant.changes)))
     if variant.collisions:
         text = text.replace("\\COLLISION_X_MASK 1'1", "\\COLLISION_X_MASK 1'0")
     with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
-        return taken(synthesise(text, "ecp5", Path(folder), options=("-noiopad",), passes=variant.passes))
+        netlist = synthesise(text, "ecp5", Path(folder), options=("-noiopad",), passes=variant.passes)
+    return {**taken(netlist), "dsp": cells(netlist)["MULT18X18D"]}
 
 
 def page(presets: Sequence[str] = ("paper", "lite", "sad")) -> str:
@@ -67,28 +73,53 @@ def page(presets: Sequence[str] = ("paper", "lite", "sad")) -> str:
     ]
     for number, variant in enumerate(VARIANTS, start=1):
         screen.note(f"row {number} of {len(VARIANTS)}: without {variant.without}")
-        cells: list[str] = []
+        entries: list[str] = []
         for preset in presets:
             if preset not in variant.presets:
-                cells += ["", "", ""]
+                entries += ["", "", ""]
                 continue
             config = Config.preset(preset).override(CORE)
             found = measure(config, variant)
-            cells += [str(found[name]) for name in ("lut4", "ff", "ebr")]
-        lines.append(f"| {variant.without} | " + " | ".join(cells) + " |")
+            entries += [str(found[name]) for name in ("lut4", "ff", "ebr")]
+        lines.append(f"| {variant.without} | " + " | ".join(entries) + " |")
     return "\n".join(lines)
 
 
+def operators() -> dict[str, dict[str, int]]:
+    """What a lane of `paper` takes with each operator."""
+    found = {}
+    for operator in OPERATORS:
+        screen.note(f"operator {operator}")
+        changes = (f"operator={operator}", f"max_multipliers={MOST_MULTIPLIERS}")
+        found[operator] = measure(Config.preset("paper").override([*CORE, *changes]), VARIANTS[0])
+    return found
+
+
+def operator_page(found: dict[str, dict[str, int]]) -> str:
+    """The same as a table."""
+    mean = found["mean"]["lut4"]
+    rows = (
+        f"| {operator} | {lane['lut4']} | {lane['lut4'] / mean:.2f} | {lane['ff']} | {lane['dsp']} |"
+        for operator, lane in found.items()
+    )
+    return "\n".join(
+        ["| operator | LUT4 | of MEAN's | FF | multipliers |", "|---|---:|---:|---:|---:|", *rows]
+    )
+
+
 def main() -> None:
-    """Measure and write the table into the document."""
+    """Measure and write the tables into the document."""
     try:
         if not DOCUMENT.is_file():
             raise InputError(f"'{DOCUMENT}' is not here", "run this in the project's folder")
-        text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), PART, page())
+        lanes = operators()
+        text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), "operators", operator_page(lanes))
+        text = markers.renew(text, str(DOCUMENT), "savings", page())
     except SoftdepthError as error:
         print(f"error: {error}", file=sys.stderr)
         raise SystemExit(2) from None
     DOCUMENT.write_text(text)
+    FIGURES.write_text(json.dumps({"preset": "paper", "lanes": lanes}, indent=1) + "\n")
 
 
 if __name__ == "__main__":

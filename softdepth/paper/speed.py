@@ -3,9 +3,8 @@
 import json
 import platform
 import time
-from collections import Counter
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import BaseModel
@@ -33,7 +32,7 @@ class Speed(BaseModel):
     float_ns, fixed_ns : nanoseconds of processor time a pixel, on one core.
     lanes, clocks : the most lanes that the multipliers of the target allow, and their clocks a pixel.
     multipliers : what these lanes take.
-    luts_per_lane : from `utilization`, or None: not measured.
+    luts_per_lane : LUT4 of a lane of `paper` on ECP5, from ``docs/area.json``, or None: not measured.
     """
 
     operator: Operator
@@ -98,22 +97,21 @@ def _gateware(reading: Reading, operator: Operator) -> dict[str, int]:
     return {"lanes": config.lanes, "clocks": config.steps, "multipliers": config.multipliers}
 
 
-def with_luts(speeds: Speeds, utilization: Path) -> Speeds:
-    """`speeds` with ``luts_per_lane`` from the rows of ``docs/utilization.json``, if the file is there.
+def with_luts(speeds: Speeds, area: Path) -> Speeds:
+    """`speeds` with ``luts_per_lane`` from ``docs/area.json``, if the file is there.
 
-    Operators are compared in the preset `paper`, at the number of lanes that was measured for most of them.
     Raises `InputError` for a file that cannot be read.
     """
-    if not utilization.exists():
+    if not area.exists():
         return speeds
     try:
-        data: dict[str, Any] = json.loads(utilization.read_text())
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot read '{utilization}': {error}", "make it again, or remove it") from error
-    rows = [row for row in data.get("rows", ()) if row.get("preset") == "paper"]
-    lanes = Counter(row["lanes"] for row in rows).most_common(1)
-    luts = {row["operator"]: row["lut4_per_lane"] for row in rows if row["lanes"] == lanes[0][0]}
-    known = [s.model_copy(update={"luts_per_lane": luts.get(s.operator)}) for s in speeds.operators]
+        lanes: dict[str, dict[str, int]] = json.loads(area.read_text())["lanes"]
+        known = [
+            s.model_copy(update={"luts_per_lane": lanes[s.operator]["lut4"] if s.operator in lanes else None})
+            for s in speeds.operators
+        ]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"cannot read '{area}': {error}", "make it again, or remove it") from error
     return speeds.model_copy(update={"operators": known})
 
 

@@ -44,23 +44,16 @@ def test_conclusion_4_is_judged_by_the_figures():
 
 
 def test_luts_are_read_where_they_are(tmp_path):
-    path = tmp_path / "utilization.json"
+    path = tmp_path / "area.json"
     assert with_luts(speeds(), path) == speeds()
     assert {row[-1] for row in pages.speed_rows(speeds())} == {"not measured"}
-    measured = [
-        ("paper", "mean", 4, 1234.4),
-        ("paper", "min", 4, 900),
-        ("paper", "mean", 32, 99),
-        ("lite", "prod", 4, 7),
-    ]
-    keys = ("preset", "operator", "lanes", "lut4_per_lane")
-    path.write_text(json.dumps({"rows": [dict(zip(keys, row, strict=True)) for row in measured]}))
+    path.write_text(json.dumps({"lanes": {"mean": {"lut4": 1234}, "min": {"lut4": 900}}}))
     rows = {row[0]: row[-1] for row in pages.speed_rows(with_luts(speeds(), path))}
     assert rows["MEAN"] == "1,234"
     assert rows["MIN"] == "900"
     assert rows["PROD"] == "not measured"
     path.write_text("{")
-    with pytest.raises(InputError, match=r"cannot read .*utilization"):
+    with pytest.raises(InputError, match=r"cannot read .*area"):
         with_luts(speeds(), path)
 
 

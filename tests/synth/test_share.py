@@ -115,4 +115,4 @@ def test_the_area_is_that_of_the_design_as_it_was(tmp_path):
     together = taken(core_netlist(config))
     assert together["ebr"] == apart["ebr"]
     for resource in ("lut4", "ff"):
-        assert together[resource] == pytest.approx(apart[resource], rel=0.03), resource
+        assert together[resource] == pytest.approx(apart[resource], rel=0.06), resource

@@ -45,6 +45,7 @@ __all__ = [
 ]
 
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
+Firing = Literal["all", "cell"]
 
 MULTIPLIER_BITS = 18
 
@@ -67,6 +68,7 @@ class Config(Frozen):
     sharpness: float = Field(default=-100.0, ge=-500, le=500)
     max_multipliers: int = Field(default=156, ge=0)
     rules: RuleBaseName = "printed"
+    firing: Firing = "all"
     membership_bits: int = Field(default=8, ge=2, le=12)
     criteria: tuple[Criterion, ...] = Field(
         default=(Sad(window=3), Sad(window=5), Sad(window=7)), strict=False
@@ -275,9 +277,11 @@ class Config(Frozen):
         """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
         if self.cost == "sad":
             return (0, self.criteria[0].maximum), (1, 1)
-        if self.operator == "mean" and self.rules == "printed":
+        if self.operator == "mean" and self.rules == "printed" and self.firing == "all":
             # Conclusions depend on each other: tighter than the sums of their own extremes.
             return (-27 * self.one, 26 * self.one), (0, 19 * self.one)
+        if self.operator == "mean" and self.rules == "corrected" and self.firing == "cell":
+            return (-32 * self.one, 32 * self.one), (9 * self.one, 11 * self.one)
         low, high = self.strength_range
         positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
         reach = positive * (high - low)

@@ -52,7 +52,7 @@ def bands(left: Image, right: Image, config: Config) -> Iterator[Band]:
     height, width, _ = left.shape
     first, stop = config.reach_rows, height - config.reach_rows
     step = max(1, BAND_PIXELS // width)
-    if width >= config.min_width:
+    if width > config.reach_left + config.reach_right:
         for y in range(first, stop, step):
             yield band(left, right, config, y, min(y + step, stop))
 
@@ -61,7 +61,7 @@ def band(left: Image, right: Image, config: Config, first: int, stop: int) -> Ba
     """The band of rows ``first .. stop - 1``, all of them within the border."""
     height, width, _ = left.shape
     assert config.reach_rows <= first < stop <= height - config.reach_rows
-    assert width >= config.min_width
+    assert width > config.reach_left + config.reach_right
     support = slice(first - config.reach_rows, stop + config.reach_rows)
     return Band(
         config,

@@ -18,7 +18,8 @@ class FractionMin(wiring.Component):
 
     ``a.num / a.den < b.num / b.den`` is decided as ``a.num * b.den < b.num * a.den``: two
     multiplications, no division, nothing rounded. An excluded candidate loses against any other.
-    One pair a clock.
+    One pair a clock. Nothing but registers stands before and behind the multipliers, so that an FPGA's own,
+    far from the logic, can take them in.
 
     Parameters
     ----------
@@ -33,7 +34,7 @@ class FractionMin(wiring.Component):
     o : the better one, ``latency`` clocks later.
     """
 
-    latency = 2
+    latency = 3
 
     def __init__(self, layout: data.StructLayout, *, halves: bool = False) -> None:
         self._layout = layout
@@ -47,16 +48,20 @@ class FractionMin(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        a = Signal(self._layout, reset_less=True)
-        b = Signal(self._layout, reset_less=True)
+        entering_a, entering_b, a, b = (
+            Signal(self._layout, name=name, reset_less=True) for name in ("entering_a", "entering_b", "a", "b")
+        )
         best = Signal(self.o.shape(), reset_less=True)
         left: ValueLike
         right: ValueLike
         if len(self.a.den):
-            shape = (self.a.num * self.b.den).shape()
+            shape = (a.num * b.den).shape()
             left = Signal(shape, reset_less=True)
             right = Signal(shape, reset_less=True)
-            m.d.sync += [left.eq(self.a.num * self.b.den), right.eq(self.b.num * self.a.den)]
+            m.d.sync += [
+                left.eq(entering_a.num * entering_b.den),
+                right.eq(entering_b.num * entering_a.den),
+            ]
         else:
             left, right = a.num, b.num
         b_wins = Signal()
@@ -69,8 +74,10 @@ class FractionMin(wiring.Component):
             m.d.comb += b_wins.eq(~b.excluded & (a.excluded | b_better))
             index = Mux(b_wins, b.index, a.index)
         m.d.sync += [
-            a.eq(self.a),
-            b.eq(self.b),
+            entering_a.eq(self.a),
+            entering_b.eq(self.b),
+            a.eq(entering_a),
+            b.eq(entering_b),
             best.num.eq(Mux(b_wins, b.num, a.num)),
             best.den.eq(Mux(b_wins, b.den, a.den)),
             best.excluded.eq(a.excluded & b.excluded),

@@ -16,6 +16,7 @@ from softdepth.hdl.lane import Lane, column_layout
 from softdepth.hdl.line_buffer import LineBuffer
 from softdepth.hdl.pipeline import Pipeline, Word, travelling
 from softdepth.hdl.right_columns import RightColumns, candidate
+from softdepth.hdl.row_memory import LOOKUP_AHEAD
 from softdepth.hdl.sequencer import Sequencer, tags_layout
 from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
 from softdepth.validity import Validity
@@ -103,20 +104,20 @@ class StereoCore(wiring.Component):
             right.eq(Cat(lines.column[r][PIXEL_BITS:] for r in range(config.column_rows))),
         ]
 
-        step_1 = control.at(step, self._column_time - 1).value
-        step_2 = control.at(step, self._column_time).value
         m.submodules.right = columns = RightColumns(config, column)
         m.d.comb += [
             columns.valid.eq(occurs["valid"][self._column_time]),
-            columns.first.eq(step_2 == 0),
+            columns.first.eq(control.at(step, self._column_time).value == 0),
             columns.column.eq(right),
         ]
 
         # Where the step is in the line, all candidates counted.
+        looked_up = self._column_time - LOOKUP_AHEAD
         place = Signal(range(config.places), reset_less=True)
-        with m.If(occurs["valid"][self._column_time - 1]):
+        with m.If(occurs["valid"][looked_up - 1]):
             m.d.sync += place.eq(place + 1)
-            with m.If(control.at(first_of_line, self._column_time - 1).value & (step_1 == 0)):
+            begins = control.at(first_of_line, looked_up - 1).value
+            with m.If(begins & (control.at(step, looked_up - 1).value == 0)):
                 m.d.sync += place.eq(0)
 
         m.submodules.tree = self._tree
@@ -132,6 +133,7 @@ class StereoCore(wiring.Component):
             m.submodules[f"lane_{k}"] = lane
             m.d.comb += [
                 lane.valid.eq(occurs["valid"][self._column_time]),
+                lane.coming.eq(occurs["valid"][looked_up]),
                 lane.place.eq(place),
                 lane.left.eq(left),
                 lane.right.eq(columns.columns[k]),

@@ -81,7 +81,7 @@ class FrameGuard(wiring.Component):
         here = Signal.like(x)
         on_first_line = Signal()
         m.d.comb += [here.eq(Mux(starts, 0, x)), on_first_line.eq(starts | first_line)]
-        # Known a pixel ahead. A line has three pixels or more, so that its first is not its last.
+        # Known a pixel ahead. A line has more than one pixel, so that its first is not its last.
         at_last = Signal()
         full = Signal()
         short = Signal()

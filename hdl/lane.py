@@ -22,7 +22,8 @@ class Lane(wiring.Component):
 
     Members
     -------
-    valid, place : the columns are a step of a pixel, and which of the line's steps.
+    valid : the columns are a step of a pixel.
+    coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
     left, right : the columns to compare.
     near : input of the cost, ``criteria_latency`` clocks after the columns.
     o : the candidate's cost, `latency` clocks after the columns.
@@ -40,6 +41,7 @@ class Lane(wiring.Component):
         super().__init__(
             {
                 "valid": In(1),
+                "coming": In(1),
                 "place": In(range(config.places)),
                 "left": In(column_layout(config)),
                 "right": In(column_layout(config)),
@@ -56,6 +58,7 @@ class Lane(wiring.Component):
             m.submodules[kind] = block
             m.d.comb += [
                 block.valid.eq(self.valid),
+                block.coming.eq(self.coming),
                 block.place.eq(self.place),
                 block.left.eq(self.left),
                 block.right.eq(self.right),

@@ -18,7 +18,7 @@ class LineBuffer(wiring.Component):
     ----------
     width : bits of a pixel.
     rows : rows of a column, the new pixel's included.
-    max_width : pixels of the longest line. Lines shorter than three pixels are not supported.
+    max_width : pixels of the longest line. Lines of fewer than three pixels are not supported.
 
     Members
     -------
@@ -26,7 +26,7 @@ class LineBuffer(wiring.Component):
     column : its column, top row first, `latency` clocks later, held until the next.
     """
 
-    latency = 2
+    latency = 3
 
     def __init__(self, width: int, rows: int, max_width: int) -> None:
         self._width = width
@@ -48,13 +48,20 @@ class LineBuffer(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        entered = Signal()
+        # The memory's inputs come from registers: its blocks lie far apart.
+        entering, entered = Signal(), Signal()
+        x = Signal(range(self._depth), reset_less=True)
+        entering_pixel = Signal(self._width, reset_less=True)
         pixel = Signal(self._width, reset_less=True)
         column = Signal(data.ArrayLayout(unsigned(self._width), self._rows))
         held = Signal.like(column, reset_less=True)
-        m.d.sync += entered.eq(self.en)
-        with m.If(self.en):
-            m.d.sync += pixel.eq(self.pixel)
+        m.d.sync += [
+            entering.eq(self.en),
+            entered.eq(entering),
+            x.eq(self.x),
+            entering_pixel.eq(self.pixel),
+            pixel.eq(entering_pixel),
+        ]
         with m.If(entered):
             m.d.sync += held.eq(column)
         m.d.comb += self.column.eq(held)
@@ -64,16 +71,13 @@ class LineBuffer(wiring.Component):
 
         # What is written back comes from the output's registers, which block RAM has of its own.
         m.submodules.lines = lines = SlicedMemory(self._width * (self._rows - 1), self._depth)
-        x = Signal(range(self._depth), reset_less=True)
-        written_at = Signal.like(x)
+        read_at, written_at = Signal.like(x), Signal.like(x)
         m.d.comb += [
-            lines.read.eq(self.en),
-            lines.read_at.eq(self.x),
+            lines.read.eq(entering),
+            lines.read_at.eq(x),
             column.as_value().eq(Cat(lines.data, pixel)),
             lines.write_at.eq(written_at),
             lines.written.eq(held.as_value()[self._width :]),
         ]
-        m.d.sync += [lines.write.eq(entered), written_at.eq(x)]
-        with m.If(self.en):
-            m.d.sync += x.eq(self.x)
+        m.d.sync += [lines.write.eq(entered), read_at.eq(x), written_at.eq(read_at)]
         return m

@@ -4,7 +4,11 @@ from amaranth.hdl import Cat, Module, ShapeLike, Signal
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.pipeline import travelling
 from softdepth.hdl.sliced_memory import SlicedMemory
+
+LOOKUP_AHEAD = 1
+"""Clocks that a place is looked up before its columns are there to compare."""
 
 
 class RowMemory(wiring.Component):
@@ -18,7 +22,7 @@ class RowMemory(wiring.Component):
     ----------
     shape : of a row's cost.
     rows : lines to remember.
-    places : pixels of the longest line, times candidates of a pixel. At least 3 are in use.
+    places : pixels of the longest line, times candidates of a pixel. At least 4 are in use.
 
     Members
     -------
@@ -27,7 +31,7 @@ class RowMemory(wiring.Component):
     rows : and on the lines before, oldest first, in the same clock as ``newest``.
     """
 
-    latency = 2
+    latency = 3
 
     def __init__(self, shape: ShapeLike, rows: int, places: int) -> None:
         self._layout = data.ArrayLayout(shape, rows)
@@ -49,17 +53,22 @@ class RowMemory(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.costs = costs = SlicedMemory(self._layout, self._places)
+        # Two registers after the memory: its own, and one that may lie beside the adders.
+        read = Signal(self._layout, reset_less=True)
         rows = Signal(self._layout, reset_less=True)
-        valid = Signal()
-        place = Signal(range(self._places), reset_less=True)
-        valid_2, place_2 = Signal(), Signal.like(place)
+        m.d.sync += [read.eq(costs.data), rows.eq(read)]
+        valid = travelling(m, self.valid, self.latency, "valid")
+        place = self.place
+        for clock in range(self.latency):
+            following = Signal(range(self._places), name=f"place_{clock + 1}", reset_less=True)
+            m.d.sync += following.eq(place)
+            place = following
         m.d.comb += [
             costs.read.eq(self.valid),
             costs.read_at.eq(self.place),
             self.rows.eq(rows),
             costs.written.as_value().eq(Cat(*(rows[k] for k in range(1, self._layout.length)), self.newest)),
+            costs.write.eq(valid[self.latency]),
+            costs.write_at.eq(place),
         ]
-        m.d.sync += [valid.eq(self.valid), place.eq(self.place), rows.eq(costs.data)]
-        m.d.comb += [costs.write.eq(valid_2), costs.write_at.eq(place_2)]
-        m.d.sync += [valid_2.eq(valid), place_2.eq(place)]
         return m

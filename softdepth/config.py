@@ -27,7 +27,7 @@ from softdepth.criteria import (
 )
 from softdepth.errors import ConfigError
 from softdepth.presets import PRESETS
-from softdepth.rules import CONCLUSIONS, RuleBaseName, factorised_thetas, weight
+from softdepth.rules import CONCLUSIONS, Firing, RuleBaseName, factorised_thetas, weight
 from softdepth.soft import soft_min_1_table
 
 __all__ = [
@@ -45,9 +45,10 @@ __all__ = [
 ]
 
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
-Firing = Literal["all", "cell"]
 
 MULTIPLIER_BITS = 18
+NARROWEST = 4
+"""Pixels of the shortest line that the memories of lines can follow."""
 
 
 class Config(Frozen):
@@ -230,8 +231,8 @@ class Config(Frozen):
 
     @property
     def min_width(self) -> int:
-        """The narrowest legal frame: one full support."""
-        return self.reach_left + 1 + self.reach_right
+        """The narrowest legal frame: one full support, and no less than `NARROWEST`."""
+        return max(self.reach_left + 1 + self.reach_right, NARROWEST)
 
     @property
     def min_height(self) -> int:

@@ -10,11 +10,13 @@ from amaranth.lib.wiring import In, Out
 from softdepth.config import CHANNEL_BITS, CHANNELS
 from softdepth.hdl.adders import Field, add_fields
 from softdepth.hdl.pipeline import LEVELS, Pipeline, Word, clocks, start, tree_latency
-from softdepth.hdl.row_memory import RowMemory
+from softdepth.hdl.row_memory import LOOKUP_AHEAD, RowMemory
 
 CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
 ROW_OPERATIONS = 3
 """Operations of a row's cost: differences, red and green, blue."""
+STORED_READY = (RowMemory.latency - LOOKUP_AHEAD) * LEVELS
+"""When the costs from memory are there, in operations after the columns."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,8 @@ class ColumnSad(wiring.Component):
 
     Members
     -------
-    valid, place : a column is there, and which of the line's, candidates counted apart.
+    valid, place : a column comes in `LOOKUP_AHEAD` clocks, and which of the line's, candidates counted
+        apart.
     left, right : the columns to compare, top first, without the stored rows.
     o : ``c3, c5, ...``: the cost of the middle 3, 5, ... rows, `latency` clocks later.
     """
@@ -70,7 +73,7 @@ class ColumnSad(wiring.Component):
         # The rows from memory come at a fixed clock, and the computed ones with them. Without any, the
         # first operation is as late as it can be for the last to end in a register.
         sums = _sum_operations(windows)
-        ready = RowMemory.latency * LEVELS if stored_rows else start(ROW_OPERATIONS + sums) + ROW_OPERATIONS
+        ready = STORED_READY if stored_rows else start(ROW_OPERATIONS + sums) + ROW_OPERATIONS
         self._begin = ready - ROW_OPERATIONS
         self.latency = clocks(ready + sums)
         column = data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), windows[-1] - stored_rows)
@@ -119,7 +122,7 @@ class ColumnSad(wiring.Component):
         if self._stored:
             shape = range(column_maximum(1) + 1)
             m.submodules.memory = memory = RowMemory(shape, self._stored, self._places)
-            time = RowMemory.latency * LEVELS
+            time = STORED_READY
             m.d.comb += [
                 memory.valid.eq(self.valid),
                 memory.place.eq(self.place),

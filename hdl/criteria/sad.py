@@ -27,7 +27,8 @@ class SadCriteria(wiring.Component):
 
     Members
     -------
-    valid, place : the columns are a step of a pixel, and which of the line's steps.
+    valid : the columns are a step of a pixel.
+    coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
     left, right : the columns to compare, `Config.column_rows` pixels from the top.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
         `Config.reach_right` columns before the one that entered.
@@ -45,6 +46,7 @@ class SadCriteria(wiring.Component):
         super().__init__(
             {
                 "valid": In(1),
+                "coming": In(1),
                 "place": In(range(config.places)),
                 "left": In(column),
                 "right": In(column),
@@ -60,7 +62,7 @@ class SadCriteria(wiring.Component):
         sums: dict[int, Word] = {}
         m.submodules.column = column = self._column
         m.d.comb += [
-            column.valid.eq(self.valid),
+            column.valid.eq(self.coming),
             column.place.eq(self.place),
             column.left.eq(self.left),
             column.right.eq(self.right),

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Coroutine, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from random import Random
 from typing import Any
 
@@ -10,6 +11,7 @@ from amaranth.lib import data, wiring
 from amaranth.sim import Simulator, SimulatorContext
 
 from softdepth.config import Config
+from softdepth.hdl.row_memory import LOOKUP_AHEAD
 from softdepth.hdl.signatures import PixelPair, Status
 
 Ports = Mapping[str, Any]
@@ -164,3 +166,13 @@ def pair(left: int, right: int, *, sof: bool = False, eol: bool = False, eof: bo
     return (
         PixelPair.const({"left": left, "right": right, "sof": sof, "eol": eol, "eof": eof}).as_value().value
     )
+
+
+def looked_up(clocks: list[Ports], valid: str = "valid", coming: str = "coming") -> list[Ports]:
+    """`clocks` after `LOOKUP_AHEAD` more, with their places, and ``valid`` as ``coming``, so much earlier."""
+    early = [
+        {name: now[key] for name, key in ((coming, valid), ("place", "place")) if key in now} for now in clocks
+    ]
+    kept = ({name: value for name, value in now.items() if name not in (coming, "place")} for now in clocks)
+    late: list[Ports] = [{}] * LOOKUP_AHEAD
+    return [a | b for a, b in zip_longest([*late, *kept], early, fillvalue={})]

@@ -6,8 +6,9 @@ from random import Random
 import pytest
 
 from softdepth.hdl.criteria.column_sad import ColumnSad, column_maximum
+from softdepth.hdl.row_memory import LOOKUP_AHEAD
 
-from .support import Ports, observe
+from .support import Ports, looked_up, observe
 
 WINDOWS = [(1,), (3,), (5,), (1, 3), (3, 5, 7), (1, 5), (3, 9), (1, 3, 5, 7, 9), (5, 7, 11)]
 SPLITS = [
@@ -78,14 +79,15 @@ def check(windows: tuple[int, ...], stored: int, left: Rows, right: Rows, seed: 
                 }
             )
     dut = ColumnSad(windows, stored, PLACES)
-    seen = observe(dut, [*drive, *(idle() for _ in range(dut.latency))], "o")
+    drive = looked_up([*drive, *(idle() for _ in range(dut.latency))], coming="valid")
+    seen = observe(dut, drive, "o")
     compared = 0
     for clock, y, place in entered:
         if y < stored:
             continue
         costs = [cost(left[row][place], right[row][place]) for row in range(y, y + height)]
         expected = {f"c{w}": sum(costs[(height - w) // 2 : (height + w) // 2]) for w in windows}
-        got = dut.o.shape().from_bits(seen[clock + dut.latency])
+        got = dut.o.shape().from_bits(seen[LOOKUP_AHEAD + clock + dut.latency])
         assert {name: got[name] for name in expected} == expected, (y, place)
         compared += 1
     assert compared >= PLACES

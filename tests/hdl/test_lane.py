@@ -6,9 +6,10 @@ from typing import Any
 import pytest
 
 from softdepth.hdl.lane import Lane
+from softdepth.hdl.row_memory import LOOKUP_AHEAD
 
 from .expected import fraction, window_sums
-from .support import Ports, config, observe, sad
+from .support import Ports, config, looked_up, observe, sad
 
 TOP = {"reading": "top", "threshold": 1500}
 
@@ -54,7 +55,7 @@ def test_cost_of_every_candidate(keys: dict[str, Any]) -> None:
                 if y == lines - 1:
                     entered.append((clock, p, k))
                 clock += 1
-    drive: list[Ports] = list(clocks)
+    drive = looked_up(list(clocks))
     got = [dut.o.shape().from_bits(bits) for bits in observe(dut, drive, "o")]
 
     def columns(image: list[list[list[int]]]) -> list[list[list[int]]]:
@@ -64,6 +65,6 @@ def test_cost_of_every_candidate(keys: dict[str, Any]) -> None:
     sums = [window_sums(columns(left), columns(right[k]), c) for k in range(c.steps)]
     for clock, p, k in entered:
         if p >= c.reach_left + c.reach_right:
-            at = clock + dut.latency
+            at = LOOKUP_AHEAD + clock + dut.latency
             den = got[at].den if c.cost == "fuzzy" else 1
             assert (got[at].num, den) == fraction(sums[k][p], bool(near[p][k]), c), (p, k)

@@ -6,9 +6,10 @@ from typing import Any
 import pytest
 
 from softdepth.hdl.criteria.sad import SadCriteria
+from softdepth.hdl.row_memory import LOOKUP_AHEAD
 
 from .expected import window_sums
-from .support import Ports, config, observe, sad
+from .support import Ports, config, looked_up, observe, sad
 
 CASES: dict[str, list[dict[str, int]]] = {
     "paper": [sad(3), sad(5), sad(7)],
@@ -69,7 +70,7 @@ def test_sums_of_every_candidate(name: str, share: float, steps: int) -> None:
     dut = SadCriteria(c, c.criteria)
     idle: list[Ports] = [{"valid": 0}] * dut.latency
     layout: Any = dut.o.shape()
-    seen = observe(dut, [*clocks, *idle], "o")
+    seen = observe(dut, looked_up([*clocks, *idle]), "o")
 
     def columns(image: list[list[list[int]]], y: int) -> list[list[list[int]]]:
         return [[image[row][p] for row in range(y, y + c.min_height)] for p in range(pixels)]
@@ -84,7 +85,7 @@ def test_sums_of_every_candidate(name: str, share: float, steps: int) -> None:
     for clock, y, p, k in entered:
         if p < support or y < c.stored_rows:
             continue
-        sums = layout.from_bits(seen[clock + dut.latency])
+        sums = layout.from_bits(seen[LOOKUP_AHEAD + clock + dut.latency])
         assert [sums[f"s{i}"] for i in range(len(criteria))] == expected[y, k][p], (y, p, k)
         compared += 1
     assert compared >= 12 * steps

@@ -1,6 +1,6 @@
 """Argmin over fractions, compared exactly (Bobyr et al. 2021, step 5, eq. 11)."""
 
-from amaranth.hdl import Cat, Module, Mux, Shape, ShapeLike, Signal, ValueLike, unsigned
+from amaranth.hdl import Cat, Module, Mux, Shape, ShapeLike, Signal, Value, ValueLike, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -49,7 +49,8 @@ class FractionMin(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         entering_a, entering_b, a, b = (
-            Signal(self._layout, name=name, reset_less=True) for name in ("entering_a", "entering_b", "a", "b")
+            Signal(self._layout, name=name, reset_less=True)
+            for name in ("entering_a", "entering_b", "a", "b")
         )
         best = Signal(self.o.shape(), reset_less=True)
         left: ValueLike
@@ -64,13 +65,16 @@ class FractionMin(wiring.Component):
             ]
         else:
             left, right = a.num, b.num
+        # The sign of a difference comes straight out of a carry chain, a comparison does not.
+        difference = Value.cast(right) - Value.cast(left)
+        right_smaller = difference[-1]
         b_wins = Signal()
         index: ValueLike
         if self._halves:
-            m.d.comb += b_wins.eq((right < left) & ~b.excluded)
+            m.d.comb += b_wins.eq(right_smaller & ~b.excluded)
             index = Cat(Mux(b_wins, b.index, a.index), b_wins)
         else:
-            b_better = (right < left) | ((right == left) & (b.index < a.index))
+            b_better = right_smaller | ((right == left) & (b.index < a.index))
             m.d.comb += b_wins.eq(~b.excluded & (a.excluded | b_better))
             index = Mux(b_wins, b.index, a.index)
         m.d.sync += [

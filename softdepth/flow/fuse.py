@@ -11,11 +11,7 @@ from functools import cache
 from itertools import permutations, product
 from typing import Any
 
-Netlist = dict[str, Any]
-"""What yosys ``write_json`` writes."""
-
-Bit = int | str
-"""A net's number, or a constant: "0", "1", "x", "z"."""
+from softdepth.flow.netlist import Bit, Netlist
 
 PINS = "ABCD"
 MAX_PASSES = 4

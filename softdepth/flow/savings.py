@@ -19,14 +19,18 @@ from softdepth.errors import InputError, SoftdepthError
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.limits import taken
 from softdepth.flow.ram_registers import absorb_ram_registers
-from softdepth.flow.synthesis import NetlistPass, cells, synthesise, to_rtlil
+from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_rtlil
 
 DOCUMENT = Path("docs/area.md")
 FIGURES = DOCUMENT.with_suffix(".json")
-PASSES: tuple[NetlistPass, ...] = (fuse_carries, absorb_ram_registers)
+ALL = PASSES["ecp5"]
 MOST_MULTIPLIERS = 9999
 """Only one lane is built, whatever a part could hold of them."""
 CORE = ("disparities=64", "lanes=32", "max_width=1280")
+
+
+def _all_but(left_out: NetlistPass) -> tuple[NetlistPass, ...]:
+    return tuple(each for each in ALL if each is not left_out)
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ class Variant:
 
     without: str
     changes: tuple[str, ...] = ()
-    passes: tuple[NetlistPass, ...] = PASSES
+    passes: tuple[NetlistPass, ...] = ALL
     collisions: bool = False
     presets: tuple[str, ...] = ("paper", "lite", "sad")
 
@@ -43,10 +47,10 @@ class Variant:
 ROW_MEMORY = "rows remembered in block RAM"
 VARIANTS = (
     Variant("nothing: as it is"),
-    Variant("choices and complements within carry cells", passes=(absorb_ram_registers,)),
+    Variant("choices and complements within carry cells", passes=_all_but(fuse_carries)),
     Variant(ROW_MEMORY, changes=("stored_rows=0",)),
     Variant("collisions in block RAM that do not matter", collisions=True),
-    Variant("block RAM's own output registers", passes=(fuse_carries,)),
+    Variant("block RAM's own output registers", passes=_all_but(absorb_ram_registers)),
     # The rule array computes the corrected table; the printed one takes as much of it.
     Variant("MEAN in closed form", changes=("rules=corrected",), presets=("paper", "lite")),
     Variant("any of these", changes=("stored_rows=0", "rules=corrected"), passes=()),

@@ -6,7 +6,6 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 from amaranth.back import rtlil
 from amaranth.lib.wiring import Component
@@ -15,6 +14,8 @@ from softdepth.boards import Family
 from softdepth.config import Config
 from softdepth.flow.collisions import waive_collisions
 from softdepth.flow.fuse import fuse_carries
+from softdepth.flow.multiplier_registers import absorb_multiplier_registers
+from softdepth.flow.netlist import Netlist
 from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
@@ -25,14 +26,11 @@ TOP = "top"
 SCOPE = "$scopeinfo"
 """A cell that is none: yosys leaves one of the name of each module that it flattened."""
 
-Netlist = dict[str, Any]
-"""A design as yosys writes it in JSON."""
-
 NetlistPass = Callable[[Netlist], int]
 """Changes a netlist in place and returns how many cells went."""
 
 PASSES: dict[Family, tuple[NetlistPass, ...]] = {
-    "ecp5": (fuse_carries, absorb_ram_registers),
+    "ecp5": (fuse_carries, absorb_ram_registers, absorb_multiplier_registers),
     "ice40": (),
     "gowin": (),
 }

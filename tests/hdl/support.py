@@ -171,7 +171,8 @@ def pair(left: int, right: int, *, sof: bool = False, eol: bool = False, eof: bo
 def looked_up(clocks: list[Ports], valid: str = "valid", coming: str = "coming") -> list[Ports]:
     """`clocks` after `LOOKUP_AHEAD` more, with their places, and ``valid`` as ``coming``, so much earlier."""
     early = [
-        {name: now[key] for name, key in ((coming, valid), ("place", "place")) if key in now} for now in clocks
+        {name: now[key] for name, key in ((coming, valid), ("place", "place")) if key in now}
+        for now in clocks
     ]
     kept = ({name: value for name, value in now.items() if name not in (coming, "place")} for now in clocks)
     late: list[Ports] = [{}] * LOOKUP_AHEAD

@@ -9,7 +9,7 @@ from softdepth.hdl.lane import Lane
 from softdepth.hdl.row_memory import LOOKUP_AHEAD
 
 from .expected import fraction, window_sums
-from .support import Ports, config, looked_up, observe, sad
+from .support import config, looked_up, observe, sad
 
 TOP = {"reading": "top", "threshold": 1500}
 

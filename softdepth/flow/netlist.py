@@ -1,0 +1,90 @@
+"""A netlist as yosys writes it, and what passes over it need to know: who reads and who drives a net."""
+
+from collections import defaultdict
+from typing import Any
+
+Netlist = dict[str, Any]
+"""A design as yosys writes it in JSON."""
+
+Cell = dict[str, Any]
+
+Bit = int | str
+"""A net's number, or a constant: "0", "1", "x", "z"."""
+
+FLIP_FLOP = "TRELLIS_FF"
+
+
+class Nets:
+    """The nets of one module.
+
+    Members
+    -------
+    cells : the module's cells by name.
+    readers : for each net, the cells and ports that read it.
+    exported : nets of the module's own ports.
+    """
+
+    def __init__(self, module: dict[str, Any]) -> None:
+        self.cells: dict[str, Cell] = module["cells"]
+        self.readers: dict[Bit, set[tuple[str, str]]] = defaultdict(set)
+        self.exported = {bit for port in module["ports"].values() for bit in port["bits"]}
+        self._flip_flops: dict[Bit, str] = {}
+        for name, cell in self.cells.items():
+            for port, bits in cell["connections"].items():
+                if cell["port_directions"][port] != "output":
+                    for bit in bits:
+                        self.readers[bit].add((name, port))
+                elif cell["type"] == FLIP_FLOP:
+                    self._flip_flops[bits[0]] = name
+
+    def used(self, bit: Bit) -> bool:
+        """Whether anything reads a net."""
+        return bool(self.readers[bit]) or bit in self.exported
+
+    def register_of(self, bit: Bit) -> str | None:
+        """The plain ECP5 flip-flop that drives a net."""
+        name = self._flip_flops.get(bit)
+        return name if name is not None and _plain(self.cells[name]) else None
+
+    def only_register(self, bit: Bit) -> str | None:
+        """The plain ECP5 flip-flop that a net goes to, if it goes there only."""
+        if bit in self.exported or len(self.readers[bit]) != 1:
+            return None
+        ((name, port),) = self.readers[bit]
+        cell = self.cells[name]
+        return name if cell["type"] == FLIP_FLOP and port == "DI" and _plain(cell) else None
+
+    def control(self, name: str) -> tuple[Bit, Bit]:
+        """A flip-flop's clock and its clock enable."""
+        cell = self.cells[name]
+        always = cell["parameters"].get("CEMUX", "CE").strip() == "1"
+        enable = "1" if always else cell["connections"].get("CE", ["1"])[0]
+        return cell["connections"]["CLK"][0], enable
+
+    def move(self, name: str, port: str, bit: Bit) -> None:
+        """Connect an input of a cell to another net."""
+        cell = self.cells[name]
+        for old in cell["connections"].get(port, []):
+            self.readers[old].discard((name, port))
+        cell["connections"][port] = [bit]
+        cell["port_directions"][port] = "input"
+        self.readers[bit].add((name, port))
+
+    def remove(self, name: str) -> None:
+        """Take a flip-flop away."""
+        cell = self.cells.pop(name)
+        for port, bits in cell["connections"].items():
+            for bit in bits:
+                self.readers[bit].discard((name, port))
+        del self._flip_flops[cell["connections"]["Q"][0]]
+
+
+def _plain(flip_flop: Cell) -> bool:
+    """Rising edge, no reset, 0 at the start: what registers inside of other cells can be."""
+    parameters = flip_flop["parameters"]
+    return (
+        parameters.get("CLKMUX", "CLK").strip() == "CLK"
+        and parameters.get("REGSET", "RESET").strip() == "RESET"
+        and parameters.get("CEMUX", "CE").strip() in ("1", "CE")
+        and flip_flop["connections"].get("LSR", ["0"]) == ["0"]
+    )

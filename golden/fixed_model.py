@@ -8,7 +8,9 @@ For every pixel and candidate d, in exact integer arithmetic:
    ``u = min(s, 2T) >> (label_bits - membership_bits)``,
    ``A1 = max(one - u, 0)``, ``A2 = one - |u - one|``, ``A3 = max(u - one, 0)``.
 4. Conclusions ``Y_k = max over the rules of conclusion k of Theta(A_a1, Theta(A_b2, A_c3))``
-   (`fixed_operators`; soft-min II joins rules before the outer Theta).
+   (`fixed_operators`; soft-min II joins rules before the outer Theta). With ``firing = "cell"`` the
+   maximum is over those rules whose labels are next to the criteria: of each criterion low and middle
+   where ``u < one``, middle and high elsewhere. A conclusion without such a rule is 0.
 5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
    Where S is not above zero, the cost is infinite: N / S = 1 / 0, which no candidate with S > 0
    loses against.

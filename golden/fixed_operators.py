@@ -59,15 +59,15 @@ def pair_operator(config: Config) -> PairTheta:
 
 
 def conclude(config: Config, memberships: Sequence[Memberships]) -> Any:
-    """``k, Y_k`` for k = 1..11: the maximum over the conclusion's rules of the firing strength.
+    """``k, Y_k`` for k = 1..11: the maximum of the firing strength over the conclusion's rules that fire.
 
-    All rules are evaluated, except that soft-min II, which is not monotone, joins rules that agree
+    Rules are evaluated one by one, except that soft-min II, which is not monotone, joins rules that agree
     in criterion 1 before the outer Theta: see `joined_conclusions`.
     """
     theta = pair_operator(config)
     if config.operator == "soft_min_2":
-        return joined_conclusions(memberships, theta, config.rules)
-    return conclusions(memberships, lambda a, b, c: theta(a, theta(b, c)), config.rules)
+        return joined_conclusions(memberships, theta, config.rules, config.firing)
+    return conclusions(memberships, lambda a, b, c: theta(a, theta(b, c)), config.rules, config.firing)
 
 
 def _lookup(table: Table, a: Integers, b: Integers) -> Integers:

@@ -116,7 +116,8 @@ def _cost_function(
     def fuzzy(d: int, criteria: list[Values]) -> Array:
         s = compensate(config, d, criteria, [replacement] * len(criteria))
         numerator, denominator = np.zeros(s[0].shape), np.zeros(s[0].shape)
-        for index, y_k in conclusions([memberships(s_i, label) for s_i in s], theta, config.rules):
+        degrees = [memberships(s_i, label) for s_i in s]
+        for index, y_k in conclusions(degrees, theta, config.rules, config.firing):
             numerator += y_k * (weight(index) - weight(CONCLUSIONS))
             denominator += y_k
         # A sum of zero or below judges nothing: the candidate loses against any other.

@@ -27,7 +27,7 @@ from softdepth.criteria import (
 )
 from softdepth.errors import ConfigError
 from softdepth.presets import PRESETS
-from softdepth.rules import CONCLUSIONS, Firing, RuleBaseName, factorised_thetas, weight
+from softdepth.rules import CONCLUSIONS, Firing, RuleBaseName, weight
 from softdepth.soft import soft_min_1_table
 
 __all__ = [
@@ -47,6 +47,8 @@ __all__ = [
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
 
 MULTIPLIER_BITS = 18
+CELL_PRODUCTS = 4
+"""Products that PROD takes in a lane: the others follow from these, as a criterion's memberships sum to 1."""
 NARROWEST = 4
 """Pixels of the shortest line that the memories of lines can follow."""
 
@@ -257,6 +259,14 @@ class Config(Frozen):
         return 1 << self.membership_bits
 
     @property
+    def by_cell(self) -> bool:
+        """Only the eight rules around the criteria can count, whichever are said to fire.
+
+        The others have a membership of 0, and with MIN and PROD a strength of 0.
+        """
+        return self.firing == "cell" or self.operator in ("min", "prod")
+
+    @property
     def strength_range(self) -> tuple[int, int]:
         """Smallest and largest firing strength of a rule, in the operator's own scale.
 
@@ -278,12 +288,24 @@ class Config(Frozen):
         """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
         if self.cost == "sad":
             return (0, self.criteria[0].maximum), (1, 1)
-        if self.operator == "mean" and self.rules == "printed" and self.firing == "all":
-            # Conclusions depend on each other: tighter than the sums of their own extremes.
-            return (-27 * self.one, 26 * self.one), (0, 19 * self.one)
-        if self.operator == "mean" and self.rules == "corrected" and self.firing == "cell":
-            return (-32 * self.one, 32 * self.one), (9 * self.one, 11 * self.one)
+        one = self.one
         low, high = self.strength_range
+        match self.operator, self.rules, self.by_cell:
+            # Extremes of what is piecewise linear in the criteria: at corners and centres of cells.
+            case "mean", "printed", False:
+                return (-27 * one, 26 * one), (0, 19 * one)
+            case "mean", "printed", True:
+                return (-32 * one, 30 * one), (7 * one, 11 * one)
+            case "mean", "corrected", True:
+                return (-32 * one, 32 * one), (9 * one, 11 * one)
+            case "min", _, _:
+                return (-15 * one // 2, 15 * one // 2), (0, 3 * one)
+            case "prod", _, _:
+                # A cell's strengths sum to `one` but for six roundings up by a half at most.
+                return (-5 * (one + 3), 5 * (one + 3)), (0, one + 3)
+            case _, _, True:
+                # Six conclusions of successive weights: the worst are 0 .. 5, and 0 .. -5.
+                return (-15 * high, 15 * high), (6 * low, 6 * high)
         positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
         reach = positive * (high - low)
         return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)
@@ -305,8 +327,8 @@ class Config(Frozen):
         sign = num_low < 0
         num = max(num_high.bit_length(), (~num_low).bit_length()) + sign
         den = den_high.bit_length() + sign
-        thetas = factorised_thetas(self.rules) if self.operator == "prod" else 0
-        return 2 * comparisons * tiles(num) * tiles(den) + thetas * self.lanes
+        products = CELL_PRODUCTS * self.lanes if self.operator == "prod" else 0
+        return 2 * comparisons * tiles(num) * tiles(den) + products
 
     @property
     def compensation_criterion(self) -> int | None:

@@ -12,6 +12,8 @@ from typing import Literal
 
 RuleBase = Mapping[int, tuple[tuple[int, int, int], ...]]
 RuleBaseName = Literal["printed", "corrected"]
+Firing = Literal["all", "cell"]
+"""Which rules count: all 27, or the eight whose labels are next to the three criteria."""
 
 CONCLUSIONS = 11
 
@@ -56,17 +58,6 @@ CORRECTED = _table("""
 def rule_base(name: RuleBaseName) -> RuleBase:
     """The rules of each conclusion ``1..11``, as label triples of criteria 1 to 3."""
     return CORRECTED if name == "corrected" else PRINTED
-
-
-def factorised_thetas(name: RuleBaseName) -> int:
-    """Two-operand Thetas that the rule base takes when rules that agree in criterion 1 are joined.
-
-    One for each pair of labels of criteria 2 and 3, and one for each label of criterion 1 in each
-    conclusion.
-    """
-    rules = rule_base(name)
-    pairs = {(b, c) for members in rules.values() for _, b, c in members}
-    return len(pairs) + sum(len({a for a, _, _ in members}) for members in rules.values())
 
 
 def weight(conclusion: int) -> int:

@@ -52,14 +52,18 @@ def loop_cost(left, right, x, y, d, c):
         if seen > rule.threshold:
             s = tops if rule.reading == "top" else [1000] * 3
     one = 2**c.membership_bits
-    degree = {}
+    degree, cell = {}, set()
     for i, (value, top, criterion) in enumerate(zip(s, tops, c.criteria, strict=True), start=1):
         u = min(value, top) // 2 ** (criterion.label_bits - c.membership_bits)
         degree[f"1{i}"] = one - u if u < one else 0
         degree[f"2{i}"] = u if u < one else 2 * one - u
         degree[f"3{i}"] = u - one if u > one else 0
+        cell |= {f"1{i}", f"2{i}"} if u < one else {f"2{i}", f"3{i}"}
     table = CORRECTED if c.rules == "corrected" else TABLE_1
-    strengths = {k: loop_strength(rules, degree, c) for k, rules in table.items()}
+    if c.firing == "cell":
+        table = {k: [rule for rule in rules if set(rule.split()) <= cell] for k, rules in table.items()}
+        assert sum(map(len, table.values())) == 8
+    strengths = {k: loop_strength(rules, degree, c) if rules else 0 for k, rules in table.items()}
     total = sum(strengths.values())
     return Fraction(sum(y_k * (11 - k) for k, y_k in strengths.items()), total) if total > 0 else math.inf
 
@@ -160,6 +164,7 @@ def random_config(rng):
             "criteria": criteria,
             "compensation": compensation,
             "max_width": 64,
+            "firing": str(rng.choice(["all", "cell"])),
         }
     )
 
@@ -192,13 +197,15 @@ def test_random_configurations_match_the_loops(seed):
 @pytest.mark.parametrize("operator", OPERATORS)
 @pytest.mark.parametrize(("label_bits", "membership_bits"), [(4, 2), (4, 4), (12, 12), (20, 12), (20, 2)])
 @pytest.mark.parametrize("reading", ["off", "top", "literal"])
-def test_extreme_widths_match_the_loops(operator, label_bits, membership_bits, reading):
+@pytest.mark.parametrize("firing", ["all", "cell"])
+def test_extreme_widths_match_the_loops(operator, label_bits, membership_bits, reading, firing):
     criteria = [{"window": w, "label_bits": label_bits} for w in (3, 13, 15)]
     config = Config.from_dict(
         {
             "disparities": 4,
             "lanes": 1,
             "operator": operator,
+            "firing": firing,
             "max_multipliers": 1000,
             "membership_bits": membership_bits,
             "criteria": criteria,
@@ -221,6 +228,12 @@ def test_random_configurations_reach_every_branch():
         for operator in OPERATORS
         for rules in ("printed", "corrected")
         for view in ("left", "right")
+    }
+    assert {(c.operator, c.rules, c.firing) for c in drawn if c.cost == "fuzzy"} == {
+        (operator, rules, firing)
+        for operator in OPERATORS
+        for rules in ("printed", "corrected")
+        for firing in ("all", "cell")
     }
     assert {c.membership_bits for c in drawn} == set(range(2, 13))
     assert any(c.cost == "sad" for c in drawn)

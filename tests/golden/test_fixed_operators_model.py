@@ -56,21 +56,92 @@ def test_strength_range_is_reached_and_never_left(keys, bits):
     assert (strength.min(), strength.max()) == config.strength_range
 
 
+@pytest.mark.parametrize("firing", ["all", "cell"])
 @pytest.mark.parametrize("rules", ["printed", "corrected"])
 @pytest.mark.parametrize("bits", [2, 3, 4])
 @pytest.mark.parametrize("keys", [*HARD, *SOFT_1, *SOFT_2], ids=str)
-def test_cost_range_is_never_left(keys, bits, rules):
-    config = make(bits, rules=rules, **keys)
+def test_cost_range_is_never_left(keys, bits, rules, firing):
+    config = make(bits, rules=rules, firing=firing, **keys)
     for values, (low, high) in zip(sums(config, every_input(config)), config.cost_range, strict=True):
         assert low <= values.min() <= values.max() <= high
 
 
+@pytest.mark.parametrize("bits", [2, 3, 4])
+@pytest.mark.parametrize(
+    ("keys", "rules"),
+    [
+        ({"operator": "min"}, "corrected"),
+        ({"operator": "mean"}, "corrected"),
+        ({"operator": "soft_min_2"}, "corrected"),
+        ({"operator": "soft_min_2", "sharpness": -500.0}, "corrected"),
+        ({"operator": "mean"}, "printed"),
+    ],
+    ids=str,
+)
+def test_the_cost_range_by_cell_is_reached(keys, rules, bits):
+    """It is no wider than it must be: the lowest numerator of MEAN alone lies just beyond what occurs."""
+    config = make(bits, rules=rules, firing="cell", **keys)
+    (n_low, n_high), (_, s_high) = config.cost_range
+    n, s = sums(config, every_input(config))
+    assert n_low <= n.min() <= n_low + (keys["operator"] == "mean")
+    assert (n.max(), s.max()) == (n_high, s_high)
+
+
+@pytest.mark.parametrize("bits", range(2, 9))
+def test_the_strengths_of_prod_sum_to_one_but_for_rounding(bits):
+    """Of the criteria's positions in one cell; the others are mirror images of it."""
+    config = make(bits, operator="prod", rules="corrected")
+    shift = config.criteria[0].label_bits - bits
+    steps = np.arange(config.one + 1, dtype=np.int32) << shift
+    largest = 0
+    for first in steps:
+        grid = [v.ravel() for v in np.meshgrid(first, steps, steps)]
+        largest = max(largest, sums(config, grid)[1].max())
+    assert largest == config.cost_range[1][1] == config.one + 3
+
+
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+@pytest.mark.parametrize(
+    ("keys", "equal"),
+    [
+        ({"operator": "min"}, True),
+        ({"operator": "prod"}, True),
+        ({"operator": "soft_min_1", "softness": 0.0}, True),  # which is MIN
+        ({"operator": "soft_min_1", "softness": 0.4}, False),
+        ({"operator": "soft_min_2"}, False),
+        ({"operator": "soft_min_2", "sharpness": 1.0}, False),
+        ({"operator": "mean"}, False),
+    ],
+    ids=str,
+)
+def test_rules_outside_the_cell_matter_where_they_have_a_strength(keys, equal, rules):
+    apart, together = (make(4, rules=rules, firing=firing, **keys) for firing in ("all", "cell"))
+    found = [np.array(sums(config, every_input(config))) for config in (apart, together)]
+    assert np.array_equal(*found) == equal
+    assert together.by_cell
+    assert apart.by_cell == (keys["operator"] in ("min", "prod"))
+
+
+@pytest.mark.parametrize("firing", ["all", "cell"])
+def test_float_and_fixed_rules_fire_in_the_same_cell(firing):
+    """MIN and MEAN are exact in both models; criteria lie on labels, and next to them."""
+    steps = np.array([0, 1, 15, 16, 17, 31, 32, 33])
+    grid = [v.ravel() for v in np.meshgrid(steps, steps, steps, indexing="ij")]
+    config = make(4, operator="mean", firing=firing)
+    triples = [float_model.memberships(v, 16.0) for v in grid]
+    theta = operators.operator("mean", delta=0, k=0)
+    exact = dict(conclusions(triples, theta, "printed", firing))
+    for k, strength in conclude(config, degrees(config, [v.astype(np.int32) for v in grid])):
+        np.testing.assert_allclose(exact[k] * 3 * config.one, strength, atol=1e-9)
+
+
+@pytest.mark.parametrize("firing", ["all", "cell"])
 @pytest.mark.parametrize("rules", ["printed", "corrected"])
 @pytest.mark.parametrize("bits", [2, 3, 4, 5])
 @pytest.mark.parametrize("keys", [*HARD, *SOFT_2], ids=str)
-def test_the_denominator_is_above_zero(keys, bits, rules):
+def test_the_denominator_is_above_zero(keys, bits, rules, firing):
     """For all inputs there are: the gateware does not look at its sign."""
-    config = make(bits, rules=rules, **keys)
+    config = make(bits, rules=rules, firing=firing, **keys)
     n, s = fixed_model.fraction(config, 0, every_input(config))
     assert s.min() > 0
     assert (abs(n) <= 5 * s).all()  # the cost is a mean of the weights
@@ -144,10 +215,11 @@ def test_a_vanishing_sum_is_infinite_in_floating_point(monkeypatch):
 
 @pytest.mark.parametrize("rules", ["printed", "corrected"])
 @pytest.mark.parametrize("keys", [*HARD, *SOFT_1], ids=str)
-def test_monotone_operators_may_be_joined_before_theta(keys, rules):
-    config = make(4, rules=rules, **keys)
+@pytest.mark.parametrize("firing", ["all", "cell"])
+def test_monotone_operators_may_be_joined_before_theta(keys, rules, firing):
+    config = make(4, rules=rules, firing=firing, **keys)
     triples = degrees(config, every_input(config))
-    joined = dict(joined_conclusions(triples, pair_operator(config), rules))
+    joined = dict(joined_conclusions(triples, pair_operator(config), rules, firing))
     for k, strength in conclude(config, triples):
         np.testing.assert_array_equal(strength, joined[k])
 

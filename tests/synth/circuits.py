@@ -50,6 +50,23 @@ class Circuit:
         self._add("CCU2C", parameters, inputs | {"CIN": [cin]}, found)
         return outs
 
+    def register(self, bit: Bit, clock: Bit, enable: Bit = "1", reset: Bit = "0") -> Bit:
+        """A flip-flop behind a net."""
+        out = next(self._nets)
+        inputs = {"CLK": [clock], "CE": [enable], "LSR": [reset], "DI": [bit]}
+        parameters = {"CLKMUX": "CLK", "CEMUX": "CE", "REGSET": "RESET"}
+        self._add("TRELLIS_FF", parameters, inputs, {"Q": [out]})
+        return out
+
+    def multiply(self, a: list[Bit], b: list[Bit]) -> list[Bit]:
+        """A MULT18X18D of two words without sign; the lowest 36 bits are its product."""
+        wide = {"A": [*a, *["0"] * (18 - len(a))], "B": [*b, *["0"] * (18 - len(b))]}
+        inputs: dict[str, list[Bit]] = {f"{p}{k}": [bit] for p, w in wide.items() for k, bit in enumerate(w)}
+        inputs |= {"SIGNEDA": ["0"], "SIGNEDB": ["0"]}
+        outs: list[Bit] = [next(self._nets) for _ in range(36)]
+        self._add("MULT18X18D", {}, inputs, {f"P{k}": [bit] for k, bit in enumerate(outs)})
+        return outs
+
     def _add(self, kind: str, parameters: Any, inputs: Any, outputs: Any) -> None:
         self._cells[f"{kind.lower()}_{len(self._cells)}"] = {
             "type": kind,

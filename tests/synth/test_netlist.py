@@ -52,6 +52,18 @@ def test_block_ram_with_its_own_registers():
 
 
 @pytest.mark.slow
+def test_multipliers_with_their_own_registers(small_netlist):
+    """They are used on both sides, and without them candidates of other clocks would be compared."""
+    broken = copy.deepcopy(small_netlist)
+    found = [c for c in broken["modules"][TOP]["cells"].values() if c["type"] == "MULT18X18D"]
+    for cell in found:
+        for register in ("INPUTA", "INPUTB", "OUTPUT"):
+            assert cell["parameters"].pop(f"REG_{register}_CLK") == "CLK0"
+    assert found
+    assert compare(broken), "without the registers nothing changed"
+
+
+@pytest.mark.slow
 def test_the_netlist_holds_every_kind_of_cell(small_netlist):
     """What is simulated is the mapped design, hard blocks included."""
     found = cells(small_netlist)

@@ -103,13 +103,6 @@ class Pipeline:
         a, b = self.aligned(a, b)
         return self.result(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
 
-    def distance(self, a: Word, b: Word) -> Word:
-        """``|a - b|``."""
-        a, b = self.aligned(a, b)
-        difference = Mux(a.value > b.value, a.value - b.value, b.value - a.value)
-        reach = max(a.maximum - b.minimum, b.maximum - a.minimum)
-        return self.result(difference, 0, reach, a.time)
-
     def multiply(self, a: Word, b: Word) -> Word:
         """``a * b`` of two words that are never negative."""
         a, b = self.aligned(a, b)

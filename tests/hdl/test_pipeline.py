@@ -80,12 +80,6 @@ def test_subtract(a: Range, b: Range) -> None:
     check([a, b], 1, lambda p, w: p.subtract(w[0], w[1]), lambda x, y: x - y)
 
 
-@pytest.mark.parametrize(("a", "b"), RANGES)
-def test_distance(a: Range, b: Range) -> None:
-    """Ranges that do not meet are never at distance 0: the word's minimum is a bound."""
-    check([a, b], 1, lambda p, w: p.distance(w[0], w[1]), lambda x, y: abs(x - y), lowest=0)
-
-
 @pytest.mark.parametrize(
     ("a", "b"), [((0, 255), (0, 255)), ((0, 1), (0, 256)), ((0, 0), (0, 9)), ((3, 7), (0, 4))]
 )

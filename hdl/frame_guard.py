@@ -69,6 +69,7 @@ class FrameGuard(wiring.Component):
         in_frame = Signal()
         first_line = Signal()
         x = Signal(range(config.max_width))
+        within_line = Signal()  # x is not 0
         y = Signal(range(config.max_height))
         last_x = Signal(range(config.max_width), reset_less=True)
         damaged = Signal()
@@ -139,6 +140,7 @@ class FrameGuard(wiring.Component):
             """The line's last pixel leaves, at column ``last``."""
             m.d.sync += [
                 x.eq(0),
+                within_line.eq(0),
                 at_last.eq(0),
                 y.eq(row + 1),
                 highest.eq(row == config.max_height - 2),
@@ -168,7 +170,7 @@ class FrameGuard(wiring.Component):
                 row.eq(y),
             ]
             with m.If(taken):
-                m.d.sync += x.eq(x + 1)
+                m.d.sync += [x.eq(x + 1), within_line.eq(1)]
                 with m.If(at_end):
                     m.d.sync += padding.eq(0)
                     finish_line(x, eof_after_padding)
@@ -178,7 +180,7 @@ class FrameGuard(wiring.Component):
                 m.d.sync += [skipping.eq(0), pending_end.eq(pair.eof & in_frame)]
         with m.Elif(self.i.valid & starts & in_frame):
             m.d.sync += skipping.eq(0)
-            with m.If(x != 0):
+            with m.If(within_line):
                 count("early_starts")
                 count("short_lines")
                 m.d.sync += [padding.eq(1), damaged.eq(1), eof_after_padding.eq(1)]
@@ -214,6 +216,7 @@ class FrameGuard(wiring.Component):
                     dropping.eq(0),
                     skipping.eq(0),
                     x.eq(here + 1),
+                    within_line.eq(1),
                     at_last.eq(~starts & (x + 1 == Mux(first_line, config.max_width - 1, last_x))),
                     damaged.eq(item.damaged),
                     padded_left.eq(pair.left),

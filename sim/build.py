@@ -5,7 +5,6 @@ costs several times the speed, so that this module calls Verilator itself and sh
 ports alone.
 """
 
-import fcntl
 import hashlib
 import os
 import shutil
@@ -13,8 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -24,6 +22,7 @@ import cocotb_tools.config
 import platformdirs
 
 from softdepth.errors import ToolError
+from softdepth.sim import build_cache
 from softdepth.sim.toolchain import Toolchain, find_toolchain
 
 TOP = "softdepth_core"
@@ -76,19 +75,23 @@ def build(
     settings = (*flags, *MAKE_FLAGS, *_versions(tools))
     runtime = cache_folder() / "runtime" / _digest(settings)
     folder = cache_folder() / "sim" / _digest((verilog, ports, *settings))
-    with _locked(folder):
+    with build_cache.locked(folder):
         cached = (folder / TOP).exists()
         if not cached:
             _build(verilog, ports, flags, tools, folder, runtime)
+    if not cached:
+        build_cache.make_room(folder.parent)
     return Build(folder, cached, time.monotonic() - start)
 
 
 def _build(
     verilog: str, ports: str, flags: Sequence[str], tools: Toolchain, folder: Path, runtime: Path
 ) -> None:
-    log_path = folder.with_suffix(".log")
     # make refuses paths with spaces, which a user's cache folder may have.
-    with tempfile.TemporaryDirectory(prefix="softdepth-") as name, log_path.open("w") as log:
+    with (
+        tempfile.TemporaryDirectory(prefix="softdepth-") as name,
+        build_cache.log_of(folder).open("w") as log,
+    ):
         work = Path(name)
         (work / "top.v").write_text(verilog)
         (work / "ports.vlt").write_text(ports)
@@ -102,8 +105,8 @@ def _build(
         jobs = f"-j{os.cpu_count() or 1}"
         compile_ = [tools.make, jobs, "-C", "obj", "-f", "Vtop.mk", *MAKE_FLAGS, *tools.make_variables]
         _run(compile_, work, tools, log)
-        _keep(runtime, objects.glob("verilated*.o"))
-        _keep(folder, [objects / TOP])
+        build_cache.keep(runtime, objects.glob("verilated*.o"))
+        build_cache.keep(folder, [objects / TOP])
 
 
 def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: TextIO) -> None:
@@ -146,35 +149,3 @@ def _reuse_runtime(runtime: Path, objects: Path) -> None:
     """Verilator's own library is the same in every design, and most of a small build's time."""
     for path in runtime.glob("*.o"):
         shutil.copyfile(path, objects / path.name)  # a fresh date, so that make takes it
-
-
-def _keep(folder: Path, files: Iterator[Path] | Sequence[Path]) -> None:
-    """Copy `files` into a new `folder` that appears complete or not at all."""
-    if folder.exists():
-        return
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    part = Path(tempfile.mkdtemp(prefix=".part-", dir=folder.parent))
-    try:
-        for path in files:
-            shutil.copy2(path, part / path.name)
-        part.rename(folder)
-    except OSError:
-        if not folder.exists():  # another process may have been first, which is as good
-            raise
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        lock = folder.with_suffix(".lock").open("w")
-    except OSError as error:
-        raise ToolError(
-            f"cannot write the cache '{folder.parent}': {error.strerror}",
-            "set SOFTDEPTH_CACHE to a folder you may write to",
-        ) from error
-    with lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield

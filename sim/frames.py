@@ -95,10 +95,11 @@ def run_frames(
     frames = split_frames(unpack_results(stream.payloads, config))
     shapes = [left.shape[:2] for left, _ in pairs]
     if [frame.shape for frame in frames] != shapes:
-        raise _fault(f"frames of {[frame.shape for frame in frames]} came out where {shapes} went in")
+        shown = [frame.shape for frame in frames]
+        raise _fault(f"frames of {shown} came out where {shapes} went in", "sequencer (markers)")
     for number, frame in enumerate(frames):
         if frame["damaged"].any():
-            raise _fault(f"frame {number} went in sound and came out marked as damaged")
+            raise _fault(f"frame {number} went in sound and came out marked as damaged", "frame guard")
     return FramesResult([from_core_view(found, config) for found in to_maps(frames)], stream)
 
 
@@ -128,18 +129,21 @@ def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
 
 def _check_run(stream: StreamResult, job: Job) -> None:
     if stream.violations:
-        raise _fault(f"{stream.violations[0].rule}, at clock {stream.violations[0].cycle}")
+        raise _fault(f"{stream.violations[0].rule}, at clock {stream.violations[0].cycle}", "results")
     if not stream.complete:
+        taken_all = len(stream.taken) == len(job.transfers)
         raise _fault(
             f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.payloads)} of"
-            f" {job.expected} results, and then nothing for {job.patience} clocks"
+            f" {job.expected} results, and then nothing for {job.patience} clocks",
+            # A result that is lost keeps its place in the FIFO: pixels are not admitted in the end.
+            "results or sequencer" if taken_all else "results, sequencer or frame guard",
         )
     if len(stream.payloads) != job.expected:
-        raise _fault(f"it gave {len(stream.payloads)} results where {job.expected} were due")
+        raise _fault(f"it gave {len(stream.payloads)} results where {job.expected} were due", "sequencer")
 
 
-def _fault(problem: str) -> ToolError:
+def _fault(problem: str, stage: str) -> ToolError:
     return ToolError(
-        f"the simulated core misbehaves: {problem}",
+        f"the simulated core misbehaves: {problem}; stage: {stage}",
         "this is a fault of the gateware; please report it with the configuration",
     )

@@ -4,7 +4,7 @@ import shutil
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,9 +58,11 @@ def run_stream(
         job.save(path)
         start = time.monotonic()
         with _reports(path.with_suffix(PROGRESS_SUFFIX), progress):
-            failed = _simulate(program.folder, folder, path, waves is not None)
+            ended = simulate(
+                program.folder, "softdepth.sim.bench", folder, {JOB_VARIABLE: str(path)}, waves is not None
+            )
         seconds = time.monotonic() - start
-        if failed or not path.with_suffix(RECORD_SUFFIX).exists():
+        if not ended or not path.with_suffix(RECORD_SUFFIX).exists():
             raise ToolError(f"the simulator stopped: {_reason(log)}", f"see {log}")
         record = Record.load(path.with_suffix(RECORD_SUFFIX))
         if waves is not None:
@@ -76,13 +78,19 @@ def run_stream(
     )
 
 
-def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> bool:
-    """Start the program with the bench in it; returns whether it failed."""
+def simulate(
+    program: Path, bench: str, folder: Path, environment: Mapping[str, str], waves: bool = False
+) -> bool:
+    """Run the cocotb tests of the module `bench` in a program of `softdepth.sim.build`.
+
+    `folder` takes the log and all else that the run leaves; `environment` is added to the bench's own.
+    Returns whether the simulator ended well; what its tests found is theirs to write down.
+    """
     runner = get_runner("verilator")
     runner.log.disabled = True  # what it says on the terminal is in the log too
     try:
         runner.test(
-            test_module="softdepth.sim.bench",
+            test_module=bench,
             hdl_toplevel=TOP,
             hdl_toplevel_lang="verilog",
             build_dir=program,
@@ -90,11 +98,11 @@ def _simulate(program: Path, folder: Path, job: Path, waves: bool) -> bool:
             results_xml=str(folder / "results.xml"),
             log_file=folder / "log",
             waves=waves,
-            extra_env={JOB_VARIABLE: str(job)},
+            extra_env=dict(environment),
         )
     except (RuntimeError, SystemExit):  # how cocotb's runner says so
-        return True
-    return False
+        return False
+    return True
 
 
 @contextmanager

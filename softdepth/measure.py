@@ -61,14 +61,18 @@ class Measurement:
         """The map of the chosen engine."""
         return self.maps[self.engine]
 
+    @property
+    def gateware(self) -> "DisparityMap | None":
+        """The map of the board or of the simulation, if there is one."""
+        return self.maps.get("board") or self.maps.get("rtl")
+
     def mismatches(self) -> "list[Mismatch] | None":
         """Pixels in which the gateware departs from the fixed model; None if it was not measured."""
-        gateware = self.maps.get("board") or self.maps.get("rtl")
-        if gateware is None:
+        if self.gateware is None:
             return None
         from softdepth.sim.compare import mismatches
 
-        return mismatches([self.maps["fixed"]], [gateware])
+        return mismatches([self.maps["fixed"]], [self.gateware])
 
 
 def check_fits(pair: "StereoPair", config: Config) -> None:

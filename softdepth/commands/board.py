@@ -78,4 +78,4 @@ def board(
             report.write(folder, pair, chosen, measurement, summary)
     report.show(summary)
     print(f"results: {output}")
-    run.fail_on_mismatch(measurement)
+    run.fail_on_mismatch(pair, chosen, measurement)

@@ -42,13 +42,15 @@ def build(
     lists it.
     """
     chosen_board = find_board(board)
-    if preset or config:
-        base, changes = options.configuration(preset, config), list(assignments or [])
-    else:
-        base, changes = chosen_board.config, list(assignments or [])
-    short = {"lanes": lanes, "disparities": disparities, "operator": operator}
-    changes += [f"{key}={value}" for key, value in short.items() if value is not None]
-    chosen = base.override(changes) if changes else base
+    chosen = options.configuration(
+        preset,
+        config,
+        assignments,
+        lanes=lanes,
+        disparities=disparities,
+        operator=operator,
+        default=chosen_board.config,
+    )
     if program:
         _programmer(chosen_board)  # its absence is told before the minutes of a build
     folder = output or Path("out") / chosen_board.name

@@ -43,4 +43,4 @@ def compare(
         comparison.write(folder, pair, chosen, measurement, found)
     comparison.show(found)
     print(f"results: {output}")
-    run.fail_on_mismatch(measurement)
+    run.fail_on_mismatch(pair, chosen, measurement)

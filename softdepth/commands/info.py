@@ -2,6 +2,8 @@
 
 import gc
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated
 
 import typer
@@ -40,10 +42,12 @@ def info(
 
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
-    from softdepth.hdl.line_buffer import LineBuffer
-    from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, result_layout
+    from softdepth.hdl.core import StereoCore
+    from softdepth.hdl.signatures import PixelPair, result_layout
 
-    memory = LineBuffer(2 * PIXEL_BITS, config.min_height, config.max_width).bits
+    with _asked():
+        latency = StereoCore(config).latency
+    line_bits, row_bits = memory_bits(config)
     cycles = width * height * config.steps
     return {
         "candidates": f"{config.disparities}, {config.lanes} per clock",
@@ -52,25 +56,37 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "disparity": f"{config.disparity_bits} bits",
         "input payload": f"{PixelPair.size} bits",
         "output payload": f"{result_layout(config).size} bits",
-        "latency": f"{_latency(config)} clocks after the last pixel of its window",
-        "line buffers": f"{memory} bits, {config.min_height - 1} lines of {config.max_width} pixel pairs",
+        "latency": f"{latency} clocks after the last pixel of its window",
+        "line buffer": f"{line_bits} bits, {config.column_rows - 1} lines of {config.max_width} pixel pairs",
+        "row memories": f"{row_bits} bits, {config.stored_rows} rows of {config.places} costs in each lane",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
     }
 
 
-def _latency(config: Config) -> int:
+def memory_bits(config: Config) -> tuple[int, int]:
+    """Bits of the core's line buffer, and of the row memories of all its lanes."""
+    from softdepth.hdl.criteria.column_sad import column_maximum
+    from softdepth.hdl.line_buffer import LineBuffer
+    from softdepth.hdl.row_memory import RowMemory
+    from softdepth.hdl.signatures import PIXEL_BITS
+
+    with _asked():
+        lines = LineBuffer(2 * PIXEL_BITS, config.column_rows, config.max_width).bits
+        rows = RowMemory(range(column_maximum(1) + 1), config.stored_rows, config.places).bits
+    return lines, config.lanes * rows
+
+
+@contextmanager
+def _asked() -> Iterator[None]:
+    """Gateware is asked, not built; Amaranth would say so when Python comes to free its cycles."""
     from amaranth.hdl import UnusedElaboratable
 
-    from softdepth.hdl.core import StereoCore
-
     with warnings.catch_warnings():
-        # The core is asked, not built; Amaranth would say so when Python comes to free its cycles.
         warnings.simplefilter("ignore", UnusedElaboratable)
-        latency = StereoCore(config).latency
+        yield
         gc.collect()
-    return latency
 
 
 def _check(config: Config, clock: float, width: int, height: int) -> None:

@@ -40,13 +40,20 @@ def configuration(
     lanes: int | None = None,
     disparities: int | None = None,
     operator: str | None = None,
+    default: Config | None = None,
 ) -> Config:
-    """The configuration that these options choose; raises `ConfigError` where they contradict."""
+    """The configuration that these options choose; raises `ConfigError` where they contradict.
+
+    Without a preset or a file they change `default`, or else the preset `paper`.
+    """
     if preset and file:
         raise ConfigError(
             f"--preset {preset} and --config {file} both name a configuration", "give one of the two"
         )
-    base = Config.load(file) if file else Config.preset(preset or "paper")
+    if file:
+        base = Config.load(file)
+    else:
+        base = default if default and not preset else Config.preset(preset or "paper")
     short = {"lanes": lanes, "disparities": disparities, "operator": operator}
     changes = [*(assignments or []), *(f"{key}={value}" for key, value in short.items() if value is not None)]
     return base.override(changes) if changes else base

@@ -1,6 +1,5 @@
 """``softdepth run``: a stereo pair to depth, measured."""
 
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -8,13 +7,13 @@ import typer
 
 from softdepth import screen
 from softdepth.commands import options, pairs
+from softdepth.config import Config
 
 if TYPE_CHECKING:
+    from softdepth.golden.images import StereoPair
     from softdepth.measure import Measurement
-    from softdepth.sim.compare import Mismatch
 
 EXIT_MISMATCH = 1
-SHOWN_MISMATCHES = 5
 
 
 def run(
@@ -50,17 +49,17 @@ def run(
         report.write(folder, pair, chosen, measurement, summary)
     report.show(summary)
     print(f"results: {output}")
-    fail_on_mismatch(measurement)
+    fail_on_mismatch(pair, chosen, measurement)
 
 
-def fail_on_mismatch(measurement: "Measurement") -> None:
+def fail_on_mismatch(pair: "StereoPair", config: Config, measurement: "Measurement") -> None:
     """End the command with `EXIT_MISMATCH` where gateware and fixed model differ, and show where."""
-    if mismatches := measurement.mismatches():
-        _show(mismatches)
-        raise typer.Exit(EXIT_MISMATCH)
+    mismatches, gateware = measurement.mismatches(), measurement.gateware
+    if not mismatches or gateware is None:
+        return
+    from softdepth.sim.stage import explain
 
-
-def _show(mismatches: "list[Mismatch]") -> None:
     screen.note(f"error: gateware and fixed-point model differ in {len(mismatches)} pixels, first of them:")
-    for mismatch in islice(mismatches, SHOWN_MISMATCHES):
-        screen.note(f"  {mismatch}")
+    for line in explain(config, [(pair.left, pair.right)], [measurement.maps["fixed"]], [gateware]):
+        screen.note(f"  {line}")
+    raise typer.Exit(EXIT_MISMATCH)

@@ -6,7 +6,6 @@ import pytest
 
 from softdepth.config import Config
 from softdepth.golden.synthetic import generate
-from softdepth.golden.writers import write_pfm, write_picture
 from tests.cli.conftest import Files, softdepth
 
 __all__ = ["softdepth"]
@@ -25,11 +24,4 @@ def config() -> Config:
 def files(tmp_path: Path) -> Files:
     """A pair and the truth of its right view."""
     pair = generate("random", width=WIDTH, height=HEIGHT, disparities=8, seed=3, view="right")
-    assert pair.truth is not None
-    folder = tmp_path / "input"
-    folder.mkdir()
-    found = Files(folder / "left.png", folder / "right.png", folder / "truth.pfm", folder)
-    write_picture(found.left, pair.left)
-    write_picture(found.right, pair.right)
-    write_pfm(found.truth, pair.truth.disparity)
-    return found
+    return Files.written(pair, tmp_path / "input")

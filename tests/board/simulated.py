@@ -10,14 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from cocotb_tools.runner import get_runner
-
 from softdepth.boards import BOARDS
 from softdepth.config import Config
 from softdepth.hdl.boards import BoardTop
 from softdepth.hdl.serial.receiver import MIN_DIVISOR
 from softdepth.hdl.verilog import to_verilog
 from softdepth.sim.build import TOP, Build, build
+from softdepth.sim.stream import simulate
 from tests.board.bridge import PLAN_VARIABLE
 
 DIVISOR = MIN_DIVISOR
@@ -57,7 +56,9 @@ def plugged_in(
         "unplug": unplug,
     }
     (folder / "plan.json").write_text(json.dumps(plan))
-    simulator = threading.Thread(target=_simulate, args=(program.folder, folder), daemon=True)
+    # Where it does not end well, the record is missing.
+    arguments = (program.folder, "tests.board.bridge", folder, {PLAN_VARIABLE: str(folder / "plan.json")})
+    simulator = threading.Thread(target=simulate, args=arguments, daemon=True)
     simulator.start()
     board = Board()
     try:
@@ -77,22 +78,6 @@ def _program(config: Config) -> Build:
         inputs=("clk", "rx", "button"),
         outputs=("tx", "led"),
     )
-
-
-def _simulate(program: Path, folder: Path) -> None:
-    runner = get_runner("verilator")
-    runner.log.disabled = True
-    with contextlib.suppress(RuntimeError, SystemExit):  # the record is missing then
-        runner.test(
-            test_module="tests.board.bridge",
-            hdl_toplevel=TOP,
-            hdl_toplevel_lang="verilog",
-            build_dir=program,
-            test_dir=folder,
-            results_xml=str(folder / "results.xml"),
-            log_file=folder / "log",
-            extra_env={PLAN_VARIABLE: str(folder / "plan.json")},
-        )
 
 
 def _wait(path: Path, simulator: threading.Thread, folder: Path) -> str:

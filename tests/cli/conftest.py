@@ -3,13 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 import cv2
 import numpy as np
 import pytest
 
 from softdepth.cli import main
-from softdepth.golden.images import read_image
+from softdepth.golden.images import StereoPair, read_image
 from softdepth.golden.synthetic import generate
 from softdepth.golden.writers import write_pfm, write_picture
 
@@ -54,6 +55,17 @@ class Files:
     truth: Path
     folder: Path
 
+    @classmethod
+    def written(cls, pair: StereoPair, folder: Path) -> Self:
+        """The files of a pair with known truth, in a new folder."""
+        assert pair.truth is not None
+        folder.mkdir()
+        found = cls(folder / "left.png", folder / "right.png", folder / "truth.pfm", folder)
+        write_picture(found.left, pair.left)
+        write_picture(found.right, pair.right)
+        write_pfm(found.truth, pair.truth.disparity)
+        return found
+
     def gray_right(self) -> Path:
         """The right image without its colour."""
         path = self.folder / "gray.png"
@@ -76,12 +88,4 @@ class Files:
 @pytest.fixture
 def files(tmp_path: Path) -> Files:
     """A 48x30 scene with disparities below 16."""
-    pair = generate("random", width=48, height=30, disparities=16, seed=3)
-    assert pair.truth is not None
-    folder = tmp_path / "input"
-    folder.mkdir()
-    found = Files(folder / "left.png", folder / "right.png", folder / "truth.pfm", folder)
-    write_picture(found.left, pair.left)
-    write_picture(found.right, pair.right)
-    write_pfm(found.truth, pair.truth.disparity)
-    return found
+    return Files.written(generate("random", width=48, height=30, disparities=16, seed=3), tmp_path / "input")

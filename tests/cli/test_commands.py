@@ -12,6 +12,7 @@ from softdepth import cli
 from softdepth.commands.info import facts
 from softdepth.config import PRESETS, Config
 from softdepth.golden import datasets
+from softdepth.hdl.verilog import to_verilog
 
 SMALL = ("--disparities", 4, "--lanes", 2, "--set", "max_width=16")
 
@@ -65,9 +66,11 @@ def test_export_where_nothing_can_be_written(softdepth, tmp_path, target, proble
 
 
 def test_export_of_what_no_part_can_hold(softdepth, tmp_path):
-    outcome = softdepth("export", "--operator", "prod", "--lanes", "16", "-o", tmp_path / "core.v")
+    least = Config.preset("paper").multipliers
+    limit = f"max_multipliers={least - 1}"
+    outcome = softdepth("export", "--preset", "paper", "--set", limit, "-o", tmp_path / "core.v")
     assert outcome.code == 2
-    assert "takes 386 multipliers" in outcome.error
+    assert f"takes {least} multipliers" in outcome.error
     assert "fewer lanes" in outcome.error
     assert not list(tmp_path.iterdir())
 
@@ -78,8 +81,28 @@ def test_info_derives_the_figures():
     assert found["clocks per pixel"] == "8"
     assert found["clocks per frame"] == f"{640 * 480 * 8} at 640x480"
     assert found["frames per second"] == "40.7 at 100 MHz"
-    assert found["line buffers"].startswith(f"{6 * 640 * 48} bits")
     assert found["window support"] == "7 x 7 pixels"
+
+
+@pytest.mark.parametrize("stored_rows", [0, 1, 4])
+def test_info_counts_the_memories_that_are_built(stored_rows):
+    config = Config.preset("sad").override(
+        [
+            *("disparities=4", "lanes=2", "max_width=300", "criteria.0.window=5"),
+            f"stored_rows={stored_rows}",
+        ]
+    )
+    built = {"lines": 0, "memory": 0}
+    for module in re.split(r"^endmodule", to_verilog(config), flags=re.M):
+        for name in built:
+            if re.search(rf"^module \S*\.{name}\.\S+ *\(", module, re.M):
+                for high, last in re.findall(r"^  reg \[(\d+):0\] \S+ \[(\d+):0\];", module, re.M):
+                    built[name] += (int(high) + 1) * (int(last) + 1)
+    found = facts(config, 100, 300, 100)
+    assert found["line buffer"] == f"{built['lines']} bits, {4 - stored_rows} lines of 300 pixel pairs"
+    assert found["row memories"].startswith(f"{built['memory']} bits, {stored_rows} rows of 600 costs")
+    assert built["lines"] == (4 - stored_rows) * 300 * 48
+    assert built["memory"] == 2 * stored_rows * 600 * 10
 
 
 def test_info_prints_them(softdepth):

@@ -1,6 +1,7 @@
 """``softdepth run`` with the simulated gateware."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -44,6 +45,6 @@ def test_a_mismatch_is_shown_and_fails(softdepth, files, tmp_path, monkeypatch):
     outcome = softdepth("run", files.left, files.right, *SMALL, "-o", tmp_path / "out")
     assert outcome.code == 1
     assert "differ in 2 pixels" in outcome.err
-    assert "frame 0 y=7 x=11: expected" in outcome.err
+    assert re.search(r"^  frame 0 y=7 x=11: expected .*; stage: \w", outcome.err, re.M)
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["rtl_mismatches"] == 2

@@ -8,6 +8,7 @@ from softdepth.config import Config
 from softdepth.golden import fixed_model
 from softdepth.sim.compare import mismatches
 from softdepth.sim.frames import FramesResult, Pair, run_frames
+from softdepth.sim.stage import explain
 
 Exact = Callable[..., FramesResult]
 
@@ -20,7 +21,9 @@ def exact() -> Exact:
         result = run_frames(config, pairs, **options)  # type: ignore[arg-type]
         expected = [fixed_model.disparity(left, right, config) for left, right in pairs]
         found = mismatches(expected, result.maps)
-        assert not found, f"{len(found)} mismatches: " + "; ".join(map(str, found[:5]))
+        assert not found, "\n".join(
+            [f"{len(found)} mismatches", *explain(config, pairs, expected, result.maps)]
+        )
         return result
 
     return check

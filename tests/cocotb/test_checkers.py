@@ -104,20 +104,21 @@ def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mean_inference, "flag", never)
 
 
-FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception]]] = {
-    break_a_rule: (RULES, AssertionError),
-    forget_a_sign: (CONFIG, AssertionError),
-    take_rows_in_the_wrong_order: (CONFIG, AssertionError),
-    shift_the_line_buffer: (CONFIG, AssertionError),
-    drop_under_back_pressure: (CONFIG, ToolError),
+FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception], str]] = {
+    break_a_rule: (RULES, AssertionError, "inference or criteria"),
+    forget_a_sign: (CONFIG, AssertionError, "inference or criteria"),
+    take_rows_in_the_wrong_order: (CONFIG, AssertionError, "criteria, argmin or inference"),
+    shift_the_line_buffer: (CONFIG, AssertionError, r"line buffer \(as of the line above\)"),
+    drop_under_back_pressure: (CONFIG, ToolError, "results or sequencer"),
 }
+"""With the configuration that shows each, how it is told, and the stage that is named."""
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
-def test_fault_is_caught(
+def test_fault_is_caught_and_its_stage_named(
     fault: Callable[[pytest.MonkeyPatch], None], exact: Exact, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    config, error = FAULTS[fault]
+    config, error, stage = FAULTS[fault]
     pairs = frames_for(config, seed=1)
     sound = to_verilog(config)
     with monkeypatch.context() as patched:
@@ -125,5 +126,5 @@ def test_fault_is_caught(
         broken = to_verilog(config)
     assert broken != sound
     exact(config, pairs, verilog=sound, stalls=STALLS)
-    with pytest.raises(error):
+    with pytest.raises(error, match=f"stage: {stage}"):
         exact(config, pairs, verilog=broken, stalls=STALLS)

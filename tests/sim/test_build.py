@@ -1,5 +1,6 @@
 """Builds are cached by everything that matters, and a failed one leaves nothing behind."""
 
+import os
 import shutil
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -10,6 +11,7 @@ import pytest
 
 from softdepth.errors import ToolError
 from softdepth.sim.build import TOP, build
+from softdepth.sim.build_cache import locked
 
 
 @pytest.fixture
@@ -85,3 +87,24 @@ def test_a_cache_that_cannot_be_written(
     monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path / "file"))
     with pytest.raises(ToolError, match=r"cannot write the cache.*set SOFTDEPTH_CACHE"):
         build(stand_in())
+
+
+def test_a_new_build_makes_room_for_itself(
+    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The oldest build goes for it; what is merely taken from the cache costs none its place."""
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path))
+    monkeypatch.setattr("softdepth.sim.build_cache.MAX_BYTES", 1)
+    place = tmp_path / "sim"
+    for name in ("first", "second"):
+        with locked(place / name):
+            (place / name).mkdir()
+            (place / name / TOP).write_bytes(bytes(9))
+        os.utime(place / f"{name}.lock", (0, 1))
+    new = build(stand_in()).folder
+    assert [path for path in place.iterdir() if path.is_dir()] == [new]
+    with locked(place / "first"):
+        (place / "first").mkdir()
+    os.utime(place / "first.lock", (0, 1))
+    assert build(stand_in()).cached
+    assert (place / "first").exists()

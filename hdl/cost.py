@@ -5,6 +5,8 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
+from softdepth.hdl.cell_inference import CellInference
+from softdepth.hdl.cell_mean_inference import CellMeanInference
 from softdepth.hdl.compensation import Compensation
 from softdepth.hdl.inference import RuleInference
 from softdepth.hdl.mean_inference import MeanInference
@@ -39,10 +41,7 @@ class FuzzyCost(wiring.Component):
     def __init__(self, config: Config) -> None:
         self._config = config
         self._compensation = Compensation(config)
-        inference = (
-            MeanInference if config.operator == "mean" and config.rules == "printed" else RuleInference
-        )
-        self._inference = inference(config, self._compensation.maxima)
+        self._inference = _inference(config)(config, self._compensation.maxima)
         self.latency = self._compensation.latency + self._inference.latency
         super().__init__(_ports(config))
 
@@ -58,6 +57,21 @@ class FuzzyCost(wiring.Component):
             self.o.den.eq(self._inference.den),
         ]
         return m
+
+
+def _inference(
+    config: Config,
+) -> type[CellInference] | type[CellMeanInference] | type[MeanInference] | type[RuleInference]:
+    """The smallest component that computes what is configured."""
+    match config.operator, config.rules, config.by_cell:
+        case "mean", "printed", False:
+            return MeanInference
+        case "mean", "corrected", True:
+            return CellMeanInference
+        case _, _, True:
+            return CellInference
+        case _:
+            return RuleInference
 
 
 class SadCost(wiring.Component):

@@ -299,13 +299,14 @@ class Config(Frozen):
             case "mean", "corrected", True:
                 return (-32 * one, 32 * one), (9 * one, 11 * one)
             case "min", _, _:
-                return (-15 * one // 2, 15 * one // 2), (0, 3 * one)
+                return (-15 * one // 2, 15 * one // 2), (one // 2, 3 * one)
             case "prod", _, _:
-                # A cell's strengths sum to `one` but for six roundings up by a half at most.
-                return (-5 * (one + 3), 5 * (one + 3)), (0, one + 3)
+                # A cell's strengths sum to `one` but for what rounding adds.
+                return (-5 * (one + 3), 5 * (one + 3)), (1, one + 3)
             case _, _, True:
-                # Six conclusions of successive weights: the worst are 0 .. 5, and 0 .. -5.
-                return (-15 * high, 15 * high), (6 * low, 6 * high)
+                # Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst. The rule of the
+                # nearest labels has three memberships of a half or more.
+                return (-15 * high, 15 * high), (one // 2 + 6 * low, 6 * high)
         positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
         reach = positive * (high - low)
         return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)

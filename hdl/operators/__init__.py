@@ -1,12 +1,19 @@
-"""The fuzzy AND of a rule, Theta: one small unit per operator, all used by the same rule array."""
+"""The fuzzy AND of a rule, Theta: one small unit per operator.
+
+`OPERATORS` are for all 27 rules, whatever their memberships; `CELL_OPERATORS` for the eight of a cell.
+MIN and PROD have no others: rules outside the cell have no strength.
+"""
 
 from collections.abc import Callable
 from typing import Protocol
 
 from softdepth.config import Config
+from softdepth.hdl.operators.cell import CellOperator
+from softdepth.hdl.operators.cell_mean import CellMean
 from softdepth.hdl.operators.mean import Mean
 from softdepth.hdl.operators.minimum import Minimum
 from softdepth.hdl.operators.product import Product
+from softdepth.hdl.operators.soft_extremum import SoftExtremum
 from softdepth.hdl.operators.soft_min_1 import SoftMin1
 from softdepth.hdl.operators.soft_min_2 import SoftMin2
 from softdepth.hdl.pipeline import Pipeline, Word
@@ -33,10 +40,17 @@ class Operator(Protocol):
 
 
 OPERATORS: dict[str, Callable[[Config], Operator]] = {
-    "min": Minimum,
-    "prod": Product,
     "mean": Mean,
     "soft_min_1": SoftMin1,
     "soft_min_2": SoftMin2,
 }
-"""The unit behind each value of `Config.operator`."""
+"""The unit behind a value of `Config.operator` where all rules fire."""
+
+CELL_OPERATORS: dict[str, Callable[[Config], CellOperator]] = {
+    "min": Minimum,
+    "prod": Product,
+    "mean": CellMean,
+    "soft_min_1": SoftExtremum,
+    "soft_min_2": SoftExtremum,
+}
+"""The unit behind a value of `Config.operator` where the rules of a cell fire."""

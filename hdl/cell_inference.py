@@ -1,0 +1,134 @@
+"""Fuzzy inference over the rules of a cell: from the criteria of a candidate to its cost as a fraction."""
+
+from amaranth.hdl import Cat, Const, Module, Mux, Value
+from amaranth.lib import wiring
+
+from softdepth.config import Config
+from softdepth.hdl.adders import Field, add_fields, add_with_carry
+from softdepth.hdl.cell_rules import joins_corners
+from softdepth.hdl.inference import inference_ports
+from softdepth.hdl.operators import CELL_OPERATORS
+from softdepth.hdl.operators.cell import Position, constant
+from softdepth.hdl.pipeline import Pipeline, Word, clocks, start
+from softdepth.hdl.wires import choose, flag, inverted, masked
+
+SUM_OPERATIONS = 5
+"""Operations in a row from the firing strengths to the numerator."""
+
+
+class CellInference(wiring.Component):
+    """Any operator over the eight rules whose labels are next to the criteria (Bobyr et al. 2021, step 3).
+
+    A criterion lies between two labels, T and one on either side of it, and their memberships sum to 1.
+    Let b and c be those of criteria 2 and 3 in their upper label, and z that of criterion 1 in its
+    outer one. The eight rules are three conclusions for each of criterion 1's labels::
+
+        P_0 = Theta(1 - b, 1 - c)
+        P_1 = max(Theta(b, 1 - c), Theta(1 - b, c))
+        P_2 = Theta(b, c)
+        F_j = Theta(z, P_j), G_j = Theta(1 - z, P_j)
+
+    The weight of ``G_j`` is ``e + j - 1``, with e the number of criteria 2 and 3 above T, less 1; that of
+    ``F_j`` is 3 more where criterion 1 is above T, and 3 less below::
+
+        den = sum of F + sum of G
+        num = F_2 - F_0 + G_2 - G_0 + e den +- 3 sum of F
+
+    The printed table joins corners of some cells to ``P_1`` (`joins_corners`): then the larger of both
+    fires in ``F_1`` or ``G_1``, and the corner does not.
+
+    Members are those of `RuleInference`. One candidate a clock.
+    """
+
+    def __init__(self, config: Config, maxima: list[int]) -> None:
+        self._config = config
+        self._joins = joins_corners(config.rules)
+        self._operator = CELL_OPERATORS[config.operator](config)
+        self._may_vanish = config.cost_range[1][0] <= 0
+        self._operations = (
+            self._operator.corner_operations
+            + self._operator.fire_operations
+            + SUM_OPERATIONS
+            + self._may_vanish
+        )
+        self._start = start(self._operations)
+        self.latency = clocks(self._operations)
+        super().__init__(inference_ports(config, maxima))
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        pipe = Pipeline(m)
+        a, a_above = self._position(pipe)
+        (b, b_above), (c, c_above) = (self._upper(pipe, i) for i in (1, 2))
+
+        ready = self._start + self._operator.corner_operations
+        pairs = [pipe.at(pair, ready) for pair in self._operator.corners(pipe, b, c)]
+        a = Position(pipe.at(a.outer, ready), pipe.at(a.middle, ready))
+        (f0, f1, f2), (g0, g1, g2) = zip(*(self._operator.fire(pipe, a, pair) for pair in pairs), strict=True)
+        both = flag(pipe, lambda b, c: b & c, b_above, c_above)
+        neither = flag(pipe, lambda b, c: ~b & ~c, b_above, c_above)
+        if self._joins:
+            # The corner is the larger of the two.
+            corner = choose(pipe, pipe.at(b_above, ready), pairs[2], pairs[0])
+            larger = flag(pipe, lambda v: v[-1], pipe.add(pairs[1], inverted(pipe, corner)))
+            in_f = flag(pipe, lambda above, n: above & n, a_above, neither)
+            f1 = choose(pipe, flag(pipe, lambda x, y: x & y, in_f, larger), f0, f1)
+            f0 = masked(pipe, f0, in_f, keep=0)
+            g1 = choose(pipe, flag(pipe, lambda x, y: x & y, both, larger), g2, g1)
+            g2 = masked(pipe, g2, both, keep=0)
+
+        _, high = self._config.strength_range
+        f = pipe.add(pipe.add(f0, f1), f2)
+        den = pipe.add(f, pipe.add(pipe.add(g1, g2), g0))
+        # What complements lack: 1 in f2 - f0, and none in g2 - g0, which is one of a complement.
+        f_rise = pipe.add(f2, inverted(pipe, f0))
+        g_fall = pipe.add(g0, inverted(pipe, g2))
+        one = constant(1, f_rise)
+        num = add_with_carry(pipe, f_rise, inverted(pipe, g_fall), one, -6 * high, 6 * high)
+        e_den = choose(pipe, both, den, choose(pipe, neither, inverted(pipe, den), constant(0, den)))
+        num = add_with_carry(pipe, num, e_den, neither, -6 * high, 6 * high)
+        f_3 = pipe.add(f, pipe.shifted(f, 1))
+        a_below = flag(pipe, lambda above: ~above, a_above)
+        f_3 = choose(pipe, a_above, f_3, inverted(pipe, f_3))
+        num = add_with_carry(pipe, num, f_3, a_below, *self._config.cost_range[0])
+        den = pipe.within(pipe.at(den, num.time), *self._config.cost_range[1])
+        if self._may_vanish:
+            vanishes = flag(pipe, lambda v: v <= 0, den)
+            num = pipe.result(Mux(vanishes.value, 1, num.value), num.minimum, num.maximum, num.time)
+            den = pipe.result(Mux(vanishes.value, 0, den.value), 0, den.maximum, den.time)
+
+        assert num.time == self._start + self._operations
+        m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
+        return m
+
+    def _upper(self, pipe: Pipeline, i: int) -> tuple[Word, Word]:
+        """A criterion's membership in the upper of its two labels, and whether it is above T."""
+        fraction, above, limited = self._parts(i)
+        upper = Cat(Mux(limited, 0, fraction), limited)
+        return (
+            pipe.input(upper, self._config.one, time=self._start),
+            pipe.input(above, 1, time=self._start),
+        )
+
+    def _position(self, pipe: Pipeline) -> tuple[Position, Word]:
+        """Criterion 1's memberships in its outer label and the middle one, and whether it is above T."""
+        fraction, above, limited = self._parts(0)
+        fraction = fraction | limited.replicate(len(fraction))
+        none = pipe.input(Const(0, len(fraction)), 0, time=self._start)
+
+        def membership(bits: Value, carry: Value) -> Word:
+            word = pipe.input(bits, self._config.one - 1, time=self._start)
+            return add_fields(pipe, [Field(word, none, pipe.input(carry, 1, time=self._start))])[0]
+
+        inverse = above.replicate(len(fraction))
+        outer = membership(fraction ^ ~inverse, ~above | limited)
+        middle = membership(fraction ^ inverse, above & ~limited)
+        return Position(outer, middle), pipe.input(above, 1, time=self._start)
+
+    def _parts(self, i: int) -> tuple[Value, Value, Value]:
+        """A criterion's place between two labels, whether it is above T, and whether it is beyond 2T."""
+        label_bits = self._config.criteria[i].label_bits
+        value = self.i[f"s{i}"]
+        value = Cat(value, Const(0, max(0, label_bits + 2 - len(value))))  # it may never reach T
+        limited = value[label_bits + 1 :].any()
+        return value[label_bits - self._config.membership_bits : label_bits], value[label_bits] | limited, limited

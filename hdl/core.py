@@ -10,7 +10,7 @@ from softdepth.hdl.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.cost import fraction_layout
 from softdepth.hdl.delay import Delay
 from softdepth.hdl.exclusion import Exclusion
-from softdepth.hdl.frame_guard import FrameGuard
+from softdepth.hdl.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.item_queue import ItemQueue
 from softdepth.hdl.lane import Lane, column_layout
 from softdepth.hdl.line_buffer import LineBuffer
@@ -79,7 +79,7 @@ class StereoCore(wiring.Component):
         m.submodules.guard = guard = FrameGuard(config)
         m.submodules.sequencer = sequencer = Sequencer(config)
         wiring.connect(m, wiring.flipped(self.i), guard.i)
-        m.submodules.queue = queue = ItemQueue(config)
+        m.submodules.queue = queue = ItemQueue(item_layout(config))
         wiring.connect(m, guard.o, queue.i)
         wiring.connect(m, queue.o, sequencer.i)
         m.d.comb += self.status.eq(guard.status)

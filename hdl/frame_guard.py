@@ -14,6 +14,10 @@ def item_layout(config: Config) -> data.StructLayout:
     Every frame begins with ``sof``, all its lines are equally long, and it is ended once: by
     ``eof`` on its last pixel, or by an ``end`` item without a pixel. ``damaged`` tells that the
     frame was mended, or cut short, up to here.
+
+    What the sequencer wants to know of ``x``: ``first``: it is the line's first pixel. ``completes``: with
+    it, the line's first pixel has all that it sees to its right. ``inner``: with it, a pixel is complete
+    whose support lies inside the image; ``first_inner``: it is the first of these.
     """
     return data.StructLayout(
         {
@@ -25,6 +29,10 @@ def item_layout(config: Config) -> data.StructLayout:
             "eof": 1,
             "end": 1,
             "damaged": 1,
+            "first": 1,
+            "completes": 1,
+            "inner": 1,
+            "first_inner": 1,
         }
     )
 
@@ -71,8 +79,8 @@ class FrameGuard(wiring.Component):
         x = Signal(range(config.max_width))
         within_line = Signal()  # x is not 0
         y = Signal(range(config.max_height))
-        last_x = Signal(range(config.max_width), reset_less=True)
         damaged = Signal()
+        padding = Signal()
 
         starts = Signal()
         eol = Signal()
@@ -80,10 +88,16 @@ class FrameGuard(wiring.Component):
 
         # The column at which the line must end, and whether it may end earlier.
         here = Signal.like(x)
+        begins_line = Signal()  # whatever x says
         on_first_line = Signal()
-        m.d.comb += [here.eq(Mux(starts, 0, x)), on_first_line.eq(starts | first_line)]
+        m.d.comb += [
+            begins_line.eq(starts & ~padding),
+            here.eq(Mux(begins_line, 0, x)),
+            on_first_line.eq(starts | first_line),
+        ]
         # Known a pixel ahead. A line has more than one pixel, so that its first is not its last.
         at_last = Signal()
+        before_last = Signal.like(x, reset_less=True)  # the column before a line's last possible one
         full = Signal()
         short = Signal()
         m.d.comb += [
@@ -97,6 +111,7 @@ class FrameGuard(wiring.Component):
         previous_rows = Signal.like(rows)
         agreed = Signal()  # the two frames before were equally high
         height = Signal.like(rows)  # 0: not known yet
+        is_1, less_2 = Signal(), Signal.like(rows)  # of the height
         row = Signal.like(y)
         m.d.comb += row.eq(Mux(starts, 0, y))
         # The row is the last possible, or the last of the learnt height: known a row ahead.
@@ -106,16 +121,13 @@ class FrameGuard(wiring.Component):
         too_high = Signal()
         m.d.comb += [
             ends_here.eq(
-                pair.eof
-                | (highest & ~on_first_line)
-                | (~marks_end & Mux(on_first_line, height == 1, height_ends))
+                pair.eof | (highest & ~on_first_line) | (~marks_end & Mux(on_first_line, is_1, height_ends))
             ),
             too_high.eq(marks_end & highest & ~on_first_line & ~pair.eof),
         ]
         with m.If(self.i.valid & self.i.ready & pair.eof):
             m.d.sync += marks_end.eq(1)
 
-        padding = Signal()
         padded_left = Signal(PIXEL_BITS, reset_less=True)
         padded_right = Signal(PIXEL_BITS, reset_less=True)
         eof_after_padding = Signal(reset_less=True)
@@ -123,7 +135,17 @@ class FrameGuard(wiring.Component):
         dropping = Signal()
         pending_end = Signal()  # a line was cut whose tail held the end of the frame
 
-        m.d.comb += [item.left.eq(pair.left), item.right.eq(pair.right), item.x.eq(here)]
+        # Flags of x itself, as `here` comes late.
+        support = config.reach_left + config.reach_right
+        m.d.comb += [
+            item.left.eq(pair.left),
+            item.right.eq(pair.right),
+            item.x.eq(here),
+            item.first.eq(begins_line | ~within_line),
+            item.completes.eq(Mux(begins_line, config.reach_right == 0, x == config.reach_right)),
+            item.inner.eq(~begins_line & (x >= support)),
+            item.first_inner.eq(~begins_line & (x == support)),
+        ]
 
         # Counted a clock later: the counters are not part of the longest path.
         events = {name: Signal(name=f"counts_{name}") for name in Status.members}
@@ -136,6 +158,10 @@ class FrameGuard(wiring.Component):
         def count(name: str) -> None:
             m.d.sync += events[name].eq(1)
 
+        def advance(column: Signal) -> None:
+            """A pixel leaves at a column, and the line goes on."""
+            m.d.sync += [x.eq(column + 1), within_line.eq(1), at_last.eq(column == before_last)]
+
         def finish_line(last: Signal, ends: Signal) -> None:
             """The line's last pixel leaves, at column ``last``."""
             m.d.sync += [
@@ -144,9 +170,9 @@ class FrameGuard(wiring.Component):
                 at_last.eq(0),
                 y.eq(row + 1),
                 highest.eq(row == config.max_height - 2),
-                height_ends.eq(height == row + 2),
+                height_ends.eq(row == less_2),
                 first_line.eq(0),
-                last_x.eq(last),
+                before_last.eq(last - 1),
             ]
             with m.If(ends):
                 m.d.sync += in_frame.eq(0)
@@ -159,18 +185,17 @@ class FrameGuard(wiring.Component):
         with m.Elif(padding):
             at_end = Signal()
             m.d.comb += [
-                at_end.eq(Mux(first_line, x >= config.min_width - 1, x == last_x)),
+                at_end.eq(Mux(first_line, x >= config.min_width - 1, at_last)),
                 self.o.valid.eq(1),
                 item.left.eq(padded_left),
                 item.right.eq(padded_right),
-                item.x.eq(x),
                 item.eol.eq(at_end),
                 item.eof.eq(at_end & eof_after_padding),
                 item.damaged.eq(1),
                 row.eq(y),
             ]
             with m.If(taken):
-                m.d.sync += [x.eq(x + 1), within_line.eq(1)]
+                advance(x)
                 with m.If(at_end):
                     m.d.sync += padding.eq(0)
                     finish_line(x, eof_after_padding)
@@ -211,20 +236,19 @@ class FrameGuard(wiring.Component):
                 item.damaged.eq((damaged & ~starts) | short | (full & ~eol) | (too_high & item.eol)),
             ]
             with m.If(taken):
+                advance(here)
                 m.d.sync += [
                     in_frame.eq(1),
                     dropping.eq(0),
                     skipping.eq(0),
-                    x.eq(here + 1),
-                    within_line.eq(1),
-                    at_last.eq(~starts & (x + 1 == Mux(first_line, config.max_width - 1, last_x))),
                     damaged.eq(item.damaged),
                     padded_left.eq(pair.left),
                     padded_right.eq(pair.right),
                     eof_after_padding.eq(ends_here),
                 ]
                 with m.If(starts):
-                    m.d.sync += [first_line.eq(1), y.eq(0)]
+                    m.d.sync += [first_line.eq(1), y.eq(0), at_last.eq(0)]
+                    m.d.sync += before_last.eq(config.max_width - 2)
                 with m.If(item.eol):
                     finish_line(here, item.eof)
                 with m.If(short):
@@ -241,7 +265,11 @@ class FrameGuard(wiring.Component):
         m.d.sync += [began.eq(accepted & starts), line_ended.eq(accepted & eol)]
         counted = Signal.like(rows)
         m.d.comb += counted.eq(Mux(began, 0, rows))
-        m.d.sync += rows.eq(counted + (line_ended & (counted != config.max_height)))
+        m.d.sync += [
+            rows.eq(counted + (line_ended & (counted != config.max_height))),
+            is_1.eq(height == 1),
+            less_2.eq(height - 2),
+        ]
         with m.If(began & (rows != 0)):
             m.d.sync += [previous_rows.eq(rows), agreed.eq(rows == previous_rows)]
             with m.If((height == 0) | (agreed & (rows == previous_rows))):

@@ -5,7 +5,7 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
-from softdepth.hdl.item_queue import placed_layout
+from softdepth.hdl.frame_guard import item_layout
 from softdepth.validity import Validity
 
 
@@ -24,7 +24,7 @@ class Sequencer(wiring.Component):
 
     Members
     -------
-    i : items of well-formed frames, and their places.
+    i : items of well-formed frames.
     credit : there is room for another result at the far end of the pipeline.
     load : the pixel in ``i`` begins; its ``x`` and colours are valid in this clock only.
     valid, first, last, step : a step is taken; registered, one clock after ``load``.
@@ -38,7 +38,7 @@ class Sequencer(wiring.Component):
         self._config = config
         super().__init__(
             {
-                "i": In(stream.Signature(placed_layout(config))),
+                "i": In(stream.Signature(item_layout(config))),
                 "credit": In(1),
                 "load": Out(1),
                 "valid": Out(1),

@@ -75,6 +75,9 @@ def frames(items: Iterable[Any], c: Config) -> list[Frame]:
         line = frame.lines[-1]
         assert bool(item.sof) == (len(frame.lines) == 1 and fresh)
         assert item.x == len(line)
+        support = c.reach_left + c.reach_right
+        places = (item.x == 0, item.x == c.reach_right, item.x >= support, item.x == support)
+        assert (item.first, item.completes, item.inner, item.first_inner) == places
         assert item.right == partner(item.left)
         line.append(item.left)
         frame.damaged.append(bool(item.damaged))

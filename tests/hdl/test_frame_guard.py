@@ -43,6 +43,16 @@ def test_sound_frames_pass_unchanged(rates: tuple[float, float]) -> None:
         assert result.taken == list(range(len(result.taken)))  # and none is lost
 
 
+@pytest.mark.parametrize("dx", [-2, -1, 0, 1, 2])
+def test_places_for_any_support(dx: int) -> None:
+    """`frames` checks them; the support reaches further to one side, and to the other not at all."""
+    c = config(cost="sad", criteria=[sad(3, dx)], disparities=4, lanes=2, max_width=12, max_height=MAX_HEIGHT)
+    sent = [lines(n, width, 3) for n, width in enumerate((c.min_width, 12, 7, 7))]
+    transfers = list(chain.from_iterable(map(source, sent)))
+    result = stream_through(FrameGuard(c), transfers, i_rate=0.8, o_rate=0.8, seed=dx + 9)
+    assert [f.lines for f in frames(result.payloads, c)] == sent
+
+
 def test_an_end_of_frame_is_an_end_of_line() -> None:
     sent = lines(1, 5, 3)
     result = guarded(source(sent, marks={(4, 2): "eof"}), (1.0, 1.0))

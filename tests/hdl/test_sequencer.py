@@ -9,7 +9,7 @@ from amaranth.hdl import Cat, Signal, Value
 from amaranth.sim import SimulatorContext
 
 from softdepth.config import Config
-from softdepth.hdl.item_queue import placed_layout
+from softdepth.hdl.frame_guard import item_layout
 from softdepth.hdl.sequencer import Sequencer, tags_layout
 from softdepth.validity import Validity
 
@@ -79,7 +79,7 @@ def run(
 ) -> Record:
     """Run frames through. A result's credit comes back some time after it was emitted."""
     dut = Sequencer(c)
-    layout = placed_layout(c)
+    layout = item_layout(c)
     packed = [layout.const(item).as_value().value for item in items(frames, c)]
     loads_of = [k for k, item in enumerate(items(frames, c)) if not item.get("end")]
     random = Random(len(packed))

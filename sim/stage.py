@@ -2,7 +2,7 @@
 
 The core shows its results alone. The model tells what else would have given them: the line above, one
 criterion without the fuzzy stage, an excluded candidate. What is said is what the results are consistent
-with, the likeliest first; stages have the names of `softdepth.hdl.core.StereoCore`'s docstring.
+with; stages have the names of `softdepth.hdl.core.StereoCore`'s docstring.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,7 +21,7 @@ Pair = tuple[Image, Image]
 Maps = Sequence[DisparityMap]
 
 JUDGED = 50
-"""Mismatches of a frame, spread over it, that are traced to tell criteria from inference."""
+"""Mismatches of a frame, spread over it, that are traced to tell what is left of the stages."""
 
 
 def explain(config: Config, pairs: Sequence[Pair], expected: Maps, got: Maps, limit: int = 5) -> list[str]:
@@ -104,7 +104,7 @@ class _Frame:
 
     @cached_property
     def _lane(self) -> str:
-        """Criteria or inference: a cost that grows with its inputs prefers no worse ones."""
+        """What is left. A cost that grows with its inputs prefers no worse ones, but argmin may take them."""
         if self._config.cost == "sad":
             return "criteria or argmin"
         found = [d for d in self._expected.differences(self._got) if d.got.code < Validity.BORDER]
@@ -113,7 +113,6 @@ class _Frame:
             criteria = fixed_model.trace(*self._pair, self._config, x, y).criteria
             if got.disparity < len(criteria):
                 better.append((criteria[got.disparity] < criteria[expected.disparity]).any())
-        if all(better):
-            return "inference or criteria (every candidate taken is better in a criterion)"
-        share = f"{better.count(False)} of {len(better)} candidates taken"
-        return f"criteria, argmin or inference ({share} are better in no criterion)"
+        worse = better.count(False)
+        stages = "criteria, inference or argmin" if worse else "criteria or inference"
+        return f"{stages} ({worse} of {len(better)} candidates taken are better in no criterion)"

@@ -105,9 +105,9 @@ def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception], str]] = {
-    break_a_rule: (RULES, AssertionError, "inference or criteria"),
-    forget_a_sign: (CONFIG, AssertionError, "inference or criteria"),
-    take_rows_in_the_wrong_order: (CONFIG, AssertionError, "criteria, argmin or inference"),
+    break_a_rule: (RULES, AssertionError, "criteria or inference"),
+    forget_a_sign: (CONFIG, AssertionError, "criteria or inference"),
+    take_rows_in_the_wrong_order: (CONFIG, AssertionError, "criteria, inference or argmin"),
     shift_the_line_buffer: (CONFIG, AssertionError, r"line buffer \(as of the line above\)"),
     drop_under_back_pressure: (CONFIG, ToolError, "results or sequencer"),
 }

@@ -1,10 +1,9 @@
 """MEAN's inference over the corrected rules of a cell, in closed form (Bobyr et al. 2021, steps 2 to 4)."""
 
-from amaranth.hdl import Array, Cat, Const, Module, Mux, Value
+from amaranth.hdl import Cat, Const, Module, Mux, Value
 from amaranth.lib import wiring
 
 from softdepth.config import Config
-from softdepth.hdl.adders import add_with_carry
 from softdepth.hdl.inference import inference_ports
 from softdepth.hdl.pipeline import Pipeline, Word, clocks, start
 from softdepth.hdl.wires import choose, flag, wire
@@ -14,7 +13,7 @@ OPERATIONS = 5
 
 
 class CellMeanInference(wiring.Component):
-    """What `RuleInference` computes for MEAN, ``rules="corrected"`` and ``firing="cell"``, in five sums.
+    """What `RuleInference` computes for MEAN, ``rules="corrected"`` and ``firing="cell"``, in six sums.
 
     Theta is a sum, and the six firing strengths of a cell belong to six conclusions in a row, so that all
     maxima are one distance. Let A, B and C be the membership of criteria 1, 2 and 3 in the upper one of
@@ -26,11 +25,12 @@ class CellMeanInference(wiring.Component):
             = 8 (A + p + X) + (A + p + 1 + Z) - 32
 
         X = max(B, C) if a else min(B, C);  Y: the other one
-        Z = X - Y if a = b = c else Y - X;  thrice that where b = c, but not a
+        Z = X - Y if a = b = c else Y - X;  thrice that where both b and c differ from a
 
-    Z is never less than ``-(A + p + 1)``, so that the bits above its sum are free for the 32. It is
-    ``B - C`` or the opposite, and that and the choice of X stand right in front of additions: a carry cell
-    of ECP5 has room for them. Where a criterion is limited to 2T, a reset clears its bits below 2T.
+    The second bracket is 0 to 8, so that the -32 is constant bits above it. Z is ``B - C`` or its triple,
+    or the opposite of that; the choice of X and the complement of Z stand right in front of additions,
+    where a carry cell of ECP5 has room for them. Where a criterion is limited to 2T, a reset or set of
+    registers does it, and takes no logic.
 
     Members are those of `RuleInference`. One candidate a clock.
     """
@@ -44,34 +44,25 @@ class CellMeanInference(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipe = Pipeline(m)
-        bits = self._config.membership_bits
         one = self._config.one
-        a, b, c, upper, alike, thrice = self._positions(pipe)
+        (a, b, c), (upper, b_differs, c_differs) = self._limited(pipe)
 
-        # B - C, and in place of its sign whether X is B: upper's bit turns it over.
-        chain = (Cat(b.value, upper.value) - c.value)[: bits + 2]
-        turned = pipe.result(chain, 0, 4 * one - 1, b.time)
+        # B - C, and in place of its sign whether X is B: a's bit above B turns it over.
+        turned = (Cat(b.value, upper.value) - c.value)[: len(b.value) + 1]
+        turned = pipe.result(turned, 0, 4 * one - 1, b.time)
         x_is_b = flag(pipe, lambda v: v[-1], turned)
         below = flag(pipe, lambda x, u: x ^ u, x_is_b, upper)
-        distance = wire(
-            pipe, lambda v, s: Cat(v[:-1], s).as_signed(), turned, below, minimum=-one, maximum=one
-        )
-        first, half, z = self._three_sums(pipe, a, choose(pipe, x_is_b, b, c), distance, thrice)
+        d = wire(pipe, lambda v, s: Cat(v[:-1], s), turned, below, minimum=0, maximum=4 * one - 1)
 
-        minus = pipe.at(flag(pipe, lambda x, same: x ^ same, x_is_b, alike), z.time)
-        z = wire(
-            pipe,
-            lambda v, n: (v ^ n.replicate(len(v))).as_signed(),
-            z,
-            minus,
-            minimum=-3 * one - 1,
-            maximum=3 * one,
-        )
-        a_1 = wire(pipe, self._plus_one, pipe.at(a, z.time), minimum=one, maximum=7 * one)
-        second = add_with_carry(pipe, a_1, z, minus, 0, 8 * one)
+        thrice = flag(pipe, lambda v, w: v & w, b_differs, c_differs)
+        first, z = self._first_and_z(pipe, a, choose(pipe, x_is_b, b, c), d, thrice)
+        minus = flag(pipe, lambda x, v, w: x ^ ~(v | w), x_is_b, b_differs, c_differs)
+        negative = flag(pipe, lambda u, v, w: u ^ ~(v | w), upper, b_differs, c_differs)
+        half, second = self._half_and_second(pipe, a, d, z, minus, negative)
+
         first, second = pipe.aligned(first, second)
         high = first.value + Cat(second.value[3:], Const(0b110, 3))
-        num = Cat(second.value[:3], high[: bits + 4]).as_signed()
+        num = Cat(second.value[:3], high[: len(first.value) + 1]).as_signed()
         num = pipe.result(num, *self._config.cost_range[0], second.time)
 
         ready = start(OPERATIONS) + OPERATIONS
@@ -80,65 +71,92 @@ class CellMeanInference(wiring.Component):
         m.d.comb += [self.num.eq(num.value), self.den.eq(den)]
         return m
 
-    def _positions(self, pipe: Pipeline) -> tuple[Word, Word, Word, Word, Word, Word]:
-        """``A + p``, B, C; then the bit a, whether b and c equal it, and whether both do not."""
-        one = self._config.one
-        (a, upper, a_top), (b, b_upper, b_top), (c, c_upper, c_top) = map(self._limited, range(3))
-        # A's carry counts in p: 1.0 has no bit of its own.
-        counts = [3 * (i >> 2 & 1) + (i >> 3) + (i >> 1 & 1) + (i & 1) for i in range(16)]
-        p = Array(Const(count, 3) for count in counts)[Cat(b_upper, c_upper, upper, a_top)]
-        alike = (upper == b_upper) & (upper == c_upper)
-        thrice = (upper != b_upper) & (upper != c_upper)
-        maxima = (6 * one, one, one, 1, 1, 1)
-        values = ((a, p), (b, b_top), (c, c_top), (upper,), (alike,), (thrice,))
-
-        def registered(part: Value, maximum: int) -> Value:
-            return pipe.result(part, 0, maximum, start(OPERATIONS)).value
-
-        time = start(OPERATIONS) + 1
-        words = (
-            Word(Cat(*(registered(part, (1 << len(part)) - 1) for part in parts)), 0, maximum, time)
-            for parts, maximum in zip(values, maxima, strict=True)
-        )
-        return tuple(words)  # pyright: ignore
-
-    def _limited(self, i: int) -> tuple[Value, Value, Value]:
-        """Of a criterion: its bits below T, whether it reaches T, and whether it reaches 2T."""
+    def _limited(self, pipe: Pipeline) -> tuple[list[Word], list[Word]]:
+        """``A + p``, B and C; then the bit a, whether b differs from it, and whether c does."""
         bits = self._config.membership_bits
+        one = self._config.one
+        time = start(OPERATIONS)
+
+        def stored(value: Value) -> Value:
+            return pipe.result(value, 0, (1 << len(value)) - 1, time).value
+
+        def word(value: Value, maximum: int) -> Word:
+            return Word(value, 0, maximum, time + 1)
+
+        (a, a_top), (b, b_top), (c, c_top) = (self._position(i) for i in range(3))
+        a_upper = a[-1] | a_top
+        b_differs, c_differs = (stored(a_upper ^ (v[-1] | top)) for v, top in ((b, b_top), (c, c_top)))
+        a = stored(Mux(a_top, one, a))
+        upper = a[-1]
+        low_b, low_c = (stored(Mux(top, 0, v[:-1])) for v, top in ((b, b_top), (c, c_top)))
+        return (
+            [
+                word(Cat(a[:bits], _count(b_differs, c_differs, upper, stored(a_top))), 6 * one),
+                word(Cat(low_b, stored(b_top)), one),
+                word(Cat(low_c, stored(c_top)), one),
+            ],
+            [word(upper, 1), word(b_differs, 1), word(c_differs, 1)],
+        )
+
+    def _position(self, i: int) -> tuple[Value, Value]:
+        """A criterion below 2T in units of 1 / one, and whether it reaches 2T."""
         label_bits = self._config.criteria[i].label_bits
         value = self.i[f"s{i}"]
         value = Cat(value, Const(0, max(0, label_bits + 1 - len(value))))  # it may never reach T
-        top = value[label_bits + 1 :].any()
-        return Mux(top, 0, value[label_bits - bits : label_bits]), value[label_bits] | top, top
+        shift = label_bits - self._config.membership_bits
+        return value[shift : label_bits + 1], value[label_bits + 1 :].any()
 
-    def _three_sums(
-        self, pipe: Pipeline, a: Word, x: Word, distance: Word, thrice: Word
-    ) -> tuple[Word, Word, Word]:
-        """``A + p + X``, ``den / 2 - 4`` and ``B - C`` or its triple, in one carry chain.
+    def _first_and_z(self, pipe: Pipeline, a: Word, x: Word, d: Word, thrice: Word) -> tuple[Word, Word]:
+        """``A + p + X``, and `d` or its triple without the sign, which is that of `d`: side by side.
 
-        The first two have no carry out. The others lack their lowest bit there, which is that of
-        ``B - C``; where a magnitude is a complement and 1, what that bit carries is the lowest sum.
+        The first has no carry out. The second's lowest bit is that of `d`.
         """
         bits = self._config.membership_bits
         one = self._config.one
-        a, x, distance, thrice = pipe.aligned(a, x, distance, thrice)
-        d = distance.value
-        below = d[-1]
-        magnitude = Cat(below, d[1:-1] ^ below.replicate(bits))
-        total = Cat(a.value, magnitude, d[1:], below) + Cat(
-            x.value, Const(0, 2), ~d[0], Const(one >> 2, bits), d & thrice.value.replicate(bits + 2)
+        a, x, d, thrice = pipe.aligned(a, x, d, thrice)
+        once, again = d.value[1:], d.value[:-1] & thrice.value.replicate(bits + 1)
+        total = Cat(a.value, once) + Cat(x.value, Const(0, 2), again)
+        total = pipe.result(total[: 2 * bits + 4], 0, (16 << 2 * bits) - 1, d.time)
+        low = pipe.at(d, total.time).value[0]
+        z = Cat(low, total.value[bits + 3 :])
+        return Word(total.value[: bits + 3], 0, 7 * one, total.time), Word(z, 0, 4 * one - 1, total.time)
+
+    def _half_and_second(
+        self, pipe: Pipeline, a: Word, d: Word, z: Word, minus: Word, negative: Word
+    ) -> tuple[Word, Word]:
+        """``den / 2 - 4``, and ``A + p + 1 + Z``: side by side.
+
+        The first has no carry out. Its lowest bit is that of `d`; what that carries where the magnitude
+        is the complement of `d` and 1 is the lowest sum.
+        """
+        bits = self._config.membership_bits
+        one = self._config.one
+        a, d, z, minus, negative = pipe.aligned(a, d, z, minus, negative)
+        below = minus.value ^ negative.value  # the sign of d
+        magnitude = Cat(below, d.value[1:-1] ^ below.replicate(bits))
+        p = a.value[bits:]
+        next_p = Cat(~p[0], p[1] ^ p[0], p[2] ^ (p[1] & p[0]))  # no adder of its own
+        term = Cat(z.value ^ minus.value.replicate(bits + 2), negative.value.replicate(2))
+        total = Cat(magnitude, minus.value, a.value[:bits], next_p, Const(0, 1)) + Cat(
+            ~d.value[0], Const(one >> 2, bits), minus.value, term
         )
-        width = 3 * bits + 6
-        sums = pipe.result(Cat(d[0], total[:width]), 0, (2 << width) - 1, distance.time)
-        lowest, rest = sums.value[0], sums.value[1:]
+        total = pipe.result(total[: 2 * bits + 6], 0, (64 << 2 * bits) - 1, z.time)
+        half = Cat(pipe.at(d, total.time).value[0], total.value[1 : bits + 1])
         return (
-            Word(rest[: bits + 3], 0, 7 * one, sums.time),
-            Word(Cat(lowest, rest[bits + 4 : 2 * bits + 4]), one >> 1, 3 * one >> 1, sums.time),
-            Word(Cat(lowest, rest[2 * bits + 4 :]), -3 * one, 3 * one, sums.time),
+            Word(half, one >> 1, 3 * one >> 1, total.time),
+            Word(total.value[bits + 2 :], 0, 8 * one, total.time),
         )
 
-    def _plus_one(self, word: Value) -> Value:
-        """``A + p`` and 1, in tables."""
-        bits = self._config.membership_bits
-        p = word[bits:]
-        return Cat(word[:bits], ~p[0], p[1] ^ p[0], p[2] ^ (p[1] & p[0]))
+
+def _count(b_differs: Value, c_differs: Value, a: Value, a_top: Value) -> Value:
+    """p, and one more where A has reached 1: three tables of four inputs."""
+    cell = Cat(b_differs, c_differs, a, a_top)
+    counts = [
+        3 * upper + (upper ^ v) + (upper ^ w) + top
+        for top in (0, 1)
+        for upper in (0, 1)
+        for w in (0, 1)
+        for v in (0, 1)
+    ]
+    ones = ([i for i, count in enumerate(counts) if count >> bit & 1] for bit in range(3))
+    return Cat(Cat(cell == i for i in cells).any() for cells in ones)

@@ -10,7 +10,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth import rules
 from softdepth.config import Config
 from softdepth.errors import ToolError
-from softdepth.hdl import core, line_buffer, mean_inference, row_memory, rule_array
+from softdepth.hdl import cell_inference, core, line_buffer, mean_inference, row_memory, rule_array
 from softdepth.hdl.criteria import column_sad
 from softdepth.hdl.pipeline import Pipeline, Word
 from softdepth.hdl.verilog import to_verilog
@@ -20,8 +20,10 @@ from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import frames_for
 
 CONFIG = Config.preset("paper").override(["disparities=8", "lanes=4"])
-RULES = CONFIG.override(["operator=min"])
-"""With the rule array, which MEAN has no need of."""
+RULES = CONFIG.override(["operator=soft_min_1", "firing=all"])
+"""With the rule array, which only the soft minima over all rules have need of."""
+CELL = CONFIG.override(["operator=min", "criteria.1.label_bits=11"])
+"""With the rules of a cell, and criteria in the cells where the two tables differ."""
 STALLS = Stalls(output=Pauses("bursts", probability=0.5, burst=100, seed=5))
 
 
@@ -31,6 +33,11 @@ def break_a_rule(monkeypatch: pytest.MonkeyPatch) -> None:
     broken[6][broken[6].index((2, 2, 2))] = (1, 1, 3)
     broken[9][broken[9].index((1, 1, 3))] = (2, 2, 2)
     monkeypatch.setattr(rule_array, "rule_base", lambda name: broken)
+
+
+def correct_the_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rules of a cell are the corrected table's, where the printed one is configured."""
+    monkeypatch.setattr(cell_inference, "joins_corners", lambda name: False)
 
 
 def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -106,6 +113,7 @@ def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
 
 FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception], str]] = {
     break_a_rule: (RULES, AssertionError, "criteria or inference"),
+    correct_the_table: (CELL, AssertionError, "criteria or inference"),
     forget_a_sign: (CONFIG, AssertionError, "criteria or inference"),
     take_rows_in_the_wrong_order: (CONFIG, AssertionError, "criteria, inference or argmin"),
     shift_the_line_buffer: (CONFIG, AssertionError, r"line buffer \(as of the line above\)"),

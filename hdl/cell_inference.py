@@ -46,7 +46,8 @@ class CellInference(wiring.Component):
         self._operator = CELL_OPERATORS[config.operator](config)
         self._may_vanish = config.cost_range[1][0] <= 0
         self._operations = (
-            self._operator.corner_operations
+            1
+            + self._operator.corner_operations
             + self._operator.fire_operations
             + SUM_OPERATIONS
             + self._may_vanish
@@ -61,7 +62,7 @@ class CellInference(wiring.Component):
         a, a_above = self._position(pipe)
         (b, b_above), (c, c_above) = (self._upper(pipe, i) for i in (1, 2))
 
-        ready = self._start + self._operator.corner_operations
+        ready = self._start + 1 + self._operator.corner_operations
         pairs = [pipe.at(pair, ready) for pair in self._operator.corners(pipe, b, c)]
         a = Position(pipe.at(a.outer, ready), pipe.at(a.middle, ready))
         (f0, f1, f2), (g0, g1, g2) = zip(*(self._operator.fire(pipe, a, pair) for pair in pairs), strict=True)
@@ -87,7 +88,7 @@ class CellInference(wiring.Component):
         num = add_with_carry(pipe, f_rise, inverted(pipe, g_fall), one, -6 * high, 6 * high)
         e_den = choose(pipe, both, den, choose(pipe, neither, inverted(pipe, den), constant(0, den)))
         num = add_with_carry(pipe, num, e_den, neither, -6 * high, 6 * high)
-        f_3 = pipe.add(f, pipe.shifted(f, 1))
+        f_3 = pipe.at(pipe.add(f, pipe.shifted(f, 1)), num.time)
         a_below = flag(pipe, lambda above: ~above, a_above)
         f_3 = choose(pipe, a_above, f_3, inverted(pipe, f_3))
         num = add_with_carry(pipe, num, f_3, a_below, *self._config.cost_range[0])
@@ -106,8 +107,8 @@ class CellInference(wiring.Component):
         fraction, above, limited = self._parts(i)
         upper = Cat(Mux(limited, 0, fraction), limited)
         return (
-            pipe.input(upper, self._config.one, time=self._start),
-            pipe.input(above, 1, time=self._start),
+            pipe.result(upper, 0, self._config.one, self._start),
+            pipe.result(above, 0, 1, self._start),
         )
 
     def _position(self, pipe: Pipeline) -> tuple[Position, Word]:
@@ -123,7 +124,7 @@ class CellInference(wiring.Component):
         inverse = above.replicate(len(fraction))
         outer = membership(fraction ^ ~inverse, ~above | limited)
         middle = membership(fraction ^ inverse, above & ~limited)
-        return Position(outer, middle), pipe.input(above, 1, time=self._start)
+        return Position(outer, middle), pipe.result(above, 0, 1, self._start)
 
     def _parts(self, i: int) -> tuple[Value, Value, Value]:
         """A criterion's place between two labels, whether it is above T, and whether it is beyond 2T."""
@@ -131,4 +132,8 @@ class CellInference(wiring.Component):
         value = self.i[f"s{i}"]
         value = Cat(value, Const(0, max(0, label_bits + 2 - len(value))))  # it may never reach T
         limited = value[label_bits + 1 :].any()
-        return value[label_bits - self._config.membership_bits : label_bits], value[label_bits] | limited, limited
+        return (
+            value[label_bits - self._config.membership_bits : label_bits],
+            value[label_bits] | limited,
+            limited,
+        )

@@ -60,10 +60,11 @@ def order(pipeline: Pipeline, b: Word, c: Word) -> tuple[Word, Word, Word]:
     return difference, choose(pipeline, c_larger, b, c), choose(pipeline, c_larger, c, b)
 
 
-def reaches(pipeline: Pipeline, word: Word, one: int) -> Word:
-    """Whether ``word >= one``, a power of two."""
+def excess(pipeline: Pipeline, a: Word, b: Word, one: int) -> Word:
+    """``a + b - one``, where `a` is a membership."""
     bits = one.bit_length() - 1
-    return flag(pipeline, lambda v: v[bits:].any() & (~v[-1] if v.shape().signed else 1), word)
+    less_one = wire(pipeline, lambda v: Cat(v[:bits], ~v[bits]).as_signed(), a, minimum=-one, maximum=0)
+    return pipeline.add(less_one, b)
 
 
 def constant(value: int, beside: Word) -> Word:

@@ -1,73 +1,64 @@
-"""A small table looked up by how far a sum lies from a number."""
+"""A small table looked up by how far a sum lies from 0."""
 
 from collections.abc import Sequence
 
-from amaranth.hdl import Array, Cat, Const, Mux, Shape, Value
+from amaranth.hdl import Array, Cat, Const, Mux, Shape
 
-from softdepth.hdl.operators.cell import constant, reaches
+from softdepth.hdl.adders import add_with_carry
+from softdepth.hdl.operators.cell import constant
 from softdepth.hdl.pipeline import Pipeline, Word
-from softdepth.hdl.wires import choose, flag
+from softdepth.hdl.wires import flag, wire
 
-SHORT_BITS = 6
-"""Up to so many low bits of a sum are looked up as they are."""
+SHORT_BITS = 3
+"""Up to so many low bits of a sum are looked up as they are, together with its sign."""
 
 
 class DistanceTable:
-    """``table[|word - zero|]``, plus a constant on either side of `zero`.
+    """``table[|sum|]`` of a signed sum; the last entry holds for every larger magnitude.
 
-    A short table is selected from by the word's own low bits: then no magnitude has to be made, and
-    the constants take no addition.
-
-    Parameters
-    ----------
-    table : its last entry holds for every larger distance.
-    one : the membership that is 1.0; words are looked up around it, or around 0.
+    Only the low bits of the magnitude that the table tells apart are made, and none for a short table,
+    which is looked up by sum and sign.
 
     Members
     -------
-    operations : in a row from the word to the entry.
+    operations : in a row from the sum to the entry.
     """
 
-    def __init__(self, table: Sequence[int], one: int) -> None:
+    def __init__(self, table: Sequence[int]) -> None:
         self._table = table
         self._bits = max(1, (len(table) - 2).bit_length())
-        self._short = self._bits <= SHORT_BITS and one >= 1 << self._bits
-        self.operations = 1 if self._short else 3
+        self._short = self._bits <= SHORT_BITS
+        self.operations = 1 if self._short else 2
 
-    def lookup(
-        self, pipeline: Pipeline, word: Word, split: int, *, zero: int, above: int = 0, below: int = 0
-    ) -> Word:
-        """The entry for ``|word - zero|``, plus `above` where ``word >= split``, and `below` elsewhere.
+    def lookup(self, pipeline: Pipeline, word: Word, less_1: bool = False) -> Word:
+        """The entry for the magnitude of `word`, or of `word` plus 1 if it is one `less_1`."""
+        bits = self._bits
+        size = 1 << bits
+        negative = flag(pipeline, lambda v: v[-1], word)
+        far = flag(pipeline, lambda v: v[bits:] != v[-1].replicate(len(v) - bits), word)
+        if self._short:
+            values = [*range(size), *range(-size, 0)]
+            low = wire(pipeline, lambda v: Cat(v[:bits], v[-1]), word, minimum=0, maximum=2 * size - 1)
+            return self._select(pipeline, [abs(v + less_1) for v in values], low, far)
+        # The complement of a negative sum is its magnitude less 1.
+        folded = wire(
+            pipeline,
+            lambda v: v[:bits] ^ v[-1].replicate(bits),
+            word,
+            minimum=0,
+            maximum=size - 1,
+        )
+        carry = flag(pipeline, lambda n: ~n if less_1 else n, negative)
+        magnitude = add_with_carry(pipeline, folded, constant(0, folded), carry, 0, size)
+        far = flag(pipeline, lambda f, v: f | v[bits], far, magnitude)
+        low = wire(pipeline, lambda v: v[:bits], magnitude, minimum=0, maximum=size - 1)
+        return self._select(pipeline, range(size), low, far)
 
-        `split` is 0 or `one`, and `zero` is `split` or 1 less.
-        """
-        upper = reaches(pipeline, word, split) if split else flag(pipeline, lambda v: ~v[-1], word)
-        if not self._short:
-            magnitude = pipeline.result(
-                Mux(upper.value, word.value - zero, zero - word.value),
-                0,
-                max(word.maximum - zero, zero - word.minimum),
-                word.time,
-            )
-            entry = pipeline.lookup(self._table, magnitude)
-            side = choose(pipeline, upper, constant(above, word), constant(below, word))
-            return pipeline.add(entry, side)
-
-        size = 1 << self._bits
-        sides = (range(-size, 0), below), (range(size), above)
-        table = [self._entry(v + split - zero) + extra for values, extra in sides for v in values]
-        last = [self._table[-1] + below, self._table[-1] + above]
-        low, high = min(*table, *last), max(*table, *last)
-        entries = Array(Const(entry, Shape.cast(range(low, high + 1))) for entry in table)
-        rest = _signed(word.value) >> self._bits
-        near = Mux(upper.value, rest == split >> self._bits, rest == (split >> self._bits) - 1)
-        chosen = entries[Cat(word.value[: self._bits], upper.value)]
-        beyond = Mux(upper.value, *reversed(last))
-        return pipeline.result(Mux(near, chosen, beyond), low, high, word.time)
-
-    def _entry(self, distance: int) -> int:
-        return self._table[min(abs(distance), len(self._table) - 1)]
-
-
-def _signed(value: Value) -> Value:
-    return value if value.shape().signed else Cat(value, 0).as_signed()
+    def _select(self, pipeline: Pipeline, magnitudes: Sequence[int], index: Word, far: Word) -> Word:
+        """The entry of the indexed magnitude, or the last if it is `far`."""
+        low, high = min(self._table), max(self._table)
+        last = len(self._table) - 1
+        entries = [Const(self._table[min(n, last)], Shape.cast(range(low, high + 1))) for n in magnitudes]
+        index, far = pipeline.aligned(index, far)
+        entry = Mux(far.value, self._table[-1], Array(entries)[index.value])
+        return pipeline.result(entry, low, high, index.time)

@@ -2,7 +2,7 @@
 
 from softdepth.config import Config
 from softdepth.hdl.adders import add_with_carry
-from softdepth.hdl.operators.cell import Corners, Position, complement, constant, order, reaches
+from softdepth.hdl.operators.cell import Corners, Position, complement, constant, excess
 from softdepth.hdl.operators.distance_table import DistanceTable
 from softdepth.hdl.pipeline import Pipeline, Word
 from softdepth.hdl.wires import choose, flag, inverted
@@ -29,51 +29,55 @@ class SoftExtremum:
             table = soft_min_2_table(one, config.sharpness)
             # A weighted mean lies between its operands.
             self._pairs = 0, one
-        self._table = DistanceTable([-entry for entry in table] if self._maximum else table, one)
+        self._table = DistanceTable([-entry for entry in table] if self._maximum else table)
         self.corner_operations = self._table.operations + 3
         self.fire_operations = self._table.operations + 2
 
     def corners(self, pipeline: Pipeline, b: Word, c: Word) -> Corners:
         """See `CellOperator`."""
-        one = self._one
-        difference, smaller, larger = order(pipeline, b, c)
-        total = pipeline.add(b, c)
-        same = self._table.lookup(pipeline, difference, 0, zero=-1)
-        lower, upper = (smaller, larger) if self._maximum else (larger, smaller)
+        one, keeps = self._one, self._maximum
+        difference = pipeline.add(b, inverted(pipeline, c))  # less 1
+        sum_ = excess(pipeline, b, c, one)
+        same = self._table.lookup(pipeline, difference, less_1=True)
+        mixed = self._table.lookup(pipeline, sum_)
+
+        # What is chosen goes straight into an addition: registers come before the choice.
+        difference, b, c = (pipeline.at(word, same.time) for word in (difference, b, c))
+        c_larger = flag(pipeline, lambda v: v[-1], difference)
+        lower, upper = (b, c) if keeps else (c, b)
+        lower, upper = choose(pipeline, c_larger, lower, upper), choose(pipeline, c_larger, upper, lower)
         p0 = add_with_carry(pipeline, complement(pipeline, lower, one), same, constant(1, same), *self._pairs)
         p2 = pipeline.within(pipeline.add(upper, same), *self._pairs)
 
         # The pairs between are b and one - c, c and one - b. Their extreme is a corner's own operand, or
         # for the minimum its complement.
-        extreme = choose(pipeline, reaches(pipeline, total, one), p2, p0)
-        if self._maximum:
-            mixed = self._table.lookup(pipeline, total, one, zero=one)
-            p1 = pipeline.add(extreme, pipeline.subtract(mixed, same))
-        else:
-            mixed = self._table.lookup(pipeline, total, one, zero=one, above=1, below=1)
-            p1 = pipeline.add(complement(pipeline, extreme, one), pipeline.add(mixed, same))
-        return p0, pipeline.within(p1, *self._pairs), p2
+        extreme = choose(pipeline, flag(pipeline, lambda v: v[-1], pipeline.at(sum_, p0.time)), p0, p2)
+        extreme = extreme if keeps else complement(pipeline, extreme, one)
+        same = inverted(pipeline, same) if keeps else same
+        low, high = mixed.minimum + same.minimum + 1, mixed.maximum + same.maximum + 1
+        correction = add_with_carry(pipeline, mixed, same, constant(1, same), low, high)
+        return p0, pipeline.within(pipeline.add(extreme, correction), *self._pairs), p2
 
     def fire(self, pipeline: Pipeline, a: Position, pair: Word) -> tuple[Word, Word]:
         """See `CellOperator`."""
         one = self._one
-        below = pipeline.add(a.outer, inverted(pipeline, pair))
-        outer_larger = flag(pipeline, lambda v: ~v[-1], below)
-        total = pipeline.add(a.outer, pair)
-        pair_larger = reaches(pipeline, total, one)  # than one - outer
-        middle = complement(pipeline, a.outer, one)
-        if self._maximum:
-            operands = choose(pipeline, outer_larger, a.outer, pair), choose(pipeline, pair_larger, pair, middle)
-        else:
-            operands = choose(pipeline, outer_larger, pair, a.outer), choose(pipeline, pair_larger, middle, pair)
-        corrections = (
-            self._table.lookup(pipeline, below, 0, zero=-1),
-            self._table.lookup(
-                pipeline, total, one, zero=one, above=not self._maximum, below=self._maximum
-            ),
+        difference = pipeline.add(a.outer, inverted(pipeline, pair))  # less 1
+        sum_ = excess(pipeline, a.outer, pair, one)
+        in_f = self._table.lookup(pipeline, difference, less_1=True)
+        in_g = self._table.lookup(pipeline, sum_)
+
+        difference, sum_, outer, pair = (
+            pipeline.at(word, in_f.time) for word in (difference, sum_, a.outer, pair)
         )
-        outer, middle = (
-            pipeline.within(pipeline.add(operand, correction), *self._strengths)
-            for operand, correction in zip(operands, corrections, strict=True)
+        middle = complement(pipeline, outer, one)
+        takes_pair_f = flag(pipeline, lambda v: v[-1] if self._maximum else ~v[-1], difference)
+        takes_pair_g = flag(pipeline, lambda v: ~v[-1] if self._maximum else v[-1], sum_)
+        f = pipeline.add(choose(pipeline, takes_pair_f, pair, outer), in_f)
+        g = add_with_carry(
+            pipeline,
+            choose(pipeline, takes_pair_g, pair, middle),
+            in_g,
+            flag(pipeline, lambda taken: ~taken, takes_pair_g),  # which the complement lacks
+            *self._strengths,
         )
-        return outer, middle
+        return pipeline.within(f, *self._strengths), g

@@ -62,7 +62,7 @@ class StereoCore(wiring.Component):
         self._result_time = self._winner_time + self._sequence.latency
         promised = self._result_time + config.steps - 1 + FIFO_LATENCY
         self.latency = ItemQueue.latency + promised
-        self.fifo_depth = -(-(promised + 2) // config.steps) + 2
+        self.fifo_depth = -(-(promised + 2) // config.steps) + 3
         super().__init__(
             {
                 "i": In(stream.Signature(PixelPair)),
@@ -190,4 +190,5 @@ class StereoCore(wiring.Component):
         credits_left = Signal(range(self.fifo_depth + 1), init=self.fifo_depth)
         returned = self.o.valid & self.o.ready
         m.d.sync += credits_left.eq(credits_left - sequencer.issued + returned)
-        m.d.comb += sequencer.credit.eq(credits_left != 0)
+        # Two before this clock are one in it, at least.
+        m.d.sync += sequencer.credit.eq(credits_left > 1)

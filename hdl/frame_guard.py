@@ -17,7 +17,8 @@ def item_layout(config: Config) -> data.StructLayout:
 
     What the sequencer wants to know of ``x``: ``first``: it is the line's first pixel. ``completes``: with
     it, the line's first pixel has all that it sees to its right. ``inner``: with it, a pixel is complete
-    whose support lies inside the image; ``first_inner``: it is the first of these.
+    whose support lies inside the image; ``first_inner``: it is the first of these. The last three are
+    never set with ``sof``, and none is with ``end``.
     """
     return data.StructLayout(
         {
@@ -142,7 +143,7 @@ class FrameGuard(wiring.Component):
             item.right.eq(pair.right),
             item.x.eq(here),
             item.first.eq(begins_line | ~within_line),
-            item.completes.eq(Mux(begins_line, config.reach_right == 0, x == config.reach_right)),
+            item.completes.eq(~begins_line & (x == config.reach_right)),
             item.inner.eq(~begins_line & (x >= support)),
             item.first_inner.eq(~begins_line & (x == support)),
         ]
@@ -215,6 +216,7 @@ class FrameGuard(wiring.Component):
                     early.eq(marks_end | (height != 0)),
                     self.o.valid.eq(1),
                     item.end.eq(1),
+                    item.first.eq(0),
                     item.damaged.eq(damaged | early),
                 ]
                 with m.If(taken):

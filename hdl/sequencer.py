@@ -65,7 +65,7 @@ class Sequencer(wiring.Component):
         width = Signal(range(config.max_width))  # last column of the line before
         width_less_1 = Signal.like(width)
         row = Signal.like(y)
-        # Both rows lie below a frame's first, so that its first pixel needs no look at `row`.
+        # Both rows lie below a frame's first, whose first pixel says of itself that it completes nothing.
         on_first_row = Signal()  # `row` is the first that completes a result's support
         on_inner_rows = Signal()  # and the first that completes one inside the image
         m.d.comb += row.eq(Mux(item.sof, 0, y))
@@ -84,7 +84,7 @@ class Sequencer(wiring.Component):
         own = Signal()
         ends = Signal()
         m.d.comb += [
-            starts.eq(~item.end & ~started & on_first_row & ~item.sof & item.completes),
+            starts.eq(~started & on_first_row & item.completes),
             own.eq(started | starts),
             ends.eq(item.eof | item.end),
         ]
@@ -109,7 +109,7 @@ class Sequencer(wiring.Component):
         begins = Signal()  # `starts`, and the frame before is out of the way
         m.d.comb += [
             begins.eq(starts & ~draining),
-            inner.eq(own & on_inner_rows & ~item.sof & item.inner),
+            inner.eq(own & on_inner_rows & item.inner),
             first_out.eq(fresh | begins),
         ]
         room_now = Signal.like(room)

@@ -61,6 +61,7 @@ def frames(items: Iterable[Any], c: Config) -> list[Frame]:
         if item.end:
             assert is_open, "an end without a frame"
             assert fresh, "an end inside a line"
+            assert not (item.first or item.completes or item.inner or item.first_inner)
             found[-1].damaged.append(bool(item.damaged))
             found[-1].end, is_open = "end", False
             continue
@@ -76,8 +77,9 @@ def frames(items: Iterable[Any], c: Config) -> list[Frame]:
         assert bool(item.sof) == (len(frame.lines) == 1 and fresh)
         assert item.x == len(line)
         support = c.reach_left + c.reach_right
-        places = (item.x == 0, item.x == c.reach_right, item.x >= support, item.x == support)
-        assert (item.first, item.completes, item.inner, item.first_inner) == places
+        places = (item.x == c.reach_right, item.x >= support, item.x == support)
+        assert (item.completes, item.inner, item.first_inner) == ((0, 0, 0) if item.sof else places)
+        assert item.first == (item.x == 0)
         assert item.right == partner(item.left)
         line.append(item.left)
         frame.damaged.append(bool(item.damaged))

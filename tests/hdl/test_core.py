@@ -194,7 +194,8 @@ def test_back_pressure_reaches_the_input(name: str) -> None:
         sum(t < given for t in result.taken) - behind - k
         for k, given in enumerate(result.given[: -behind - 1])
     ]
-    assert max(promised) == dut.fifo_depth + 2  # which wait in the queue
+    # Two more wait in the queue. The last place is promised to the second of two in a row only.
+    assert max(promised) - 2 in (dut.fifo_depth - 1, dut.fifo_depth)
 
 
 @pytest.mark.parametrize("reset_at", [1, 33])

@@ -66,8 +66,8 @@ def items(frames: list[Sent], c: Config) -> list[dict[str, Any]]:
             last = k == pixels - 1
             sent.append(
                 {"x": x, "sof": k == 0, "eol": x == frame.width - 1, "eof": last and frame.end == "eof"}
-                | {"damaged": is_damaged[k], "first": x == 0, "completes": x == c.reach_right}
-                | {"inner": x >= support, "first_inner": x == support}
+                | {"damaged": is_damaged[k], "first": x == 0, "completes": k > 0 and x == c.reach_right}
+                | {"inner": k > 0 and x >= support, "first_inner": k > 0 and x == support}
             )
         if frame.end == "end":
             sent.append({"end": 1, "damaged": is_damaged[pixels]})

@@ -136,11 +136,12 @@ class Link:
                     gap_seen |= gap
                 elif match and packet.type == REPLY | match.type:
                     replies[packet.sequence] = packet.payload
-            if again and oldest not in replies:
-                if tries == TRIES:
+            # Also when the oldest came beside a broken one: nobody would ask for that until it is the oldest.
+            missing = [packet for packet in waiting if packet.sequence not in replies]
+            if again and missing:
+                if oldest not in replies and tries == TRIES:
                     self._give_up()
                 tries += 1
-                missing = [packet for packet in waiting if packet.sequence not in replies]
                 self.counters.repeated += len(missing)
                 self._send(missing)
                 deadline = self._deadline(waiting)

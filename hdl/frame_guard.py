@@ -99,11 +99,12 @@ class FrameGuard(wiring.Component):
         # Known a pixel ahead. A line has more than one pixel, so that its first is not its last.
         at_last = Signal()
         before_last = Signal.like(x, reset_less=True)  # the column before a line's last possible one
+        wide_enough = Signal()  # the line may end here
         full = Signal()
         short = Signal()
         m.d.comb += [
             full.eq(at_last & ~starts),
-            short.eq(eol & Mux(on_first_line, here < config.min_width - 1, ~full)),
+            short.eq(eol & Mux(on_first_line, begins_line | ~wide_enough, ~full)),
         ]
 
         # Height, for sources that do not mark the end of a frame.
@@ -159,21 +160,35 @@ class FrameGuard(wiring.Component):
         def count(name: str) -> None:
             m.d.sync += events[name].eq(1)
 
-        def advance(column: Signal) -> None:
-            """A pixel leaves at a column, and the line goes on."""
-            m.d.sync += [x.eq(column + 1), within_line.eq(1), at_last.eq(column == before_last)]
+        # A clock later: a line is longer than that.
+        line_left = Signal()
+        left_at = Signal.like(x, reset_less=True)
+        m.d.sync += line_left.eq(0)
+        with m.If(line_left):
+            m.d.sync += before_last.eq(left_at - 1)
 
-        def finish_line(last: Signal, ends: Signal) -> None:
-            """The line's last pixel leaves, at column ``last``."""
+        def advance(column: Signal) -> None:
+            """A pixel leaves at a column, and the line goes on unless `finish_line` says otherwise."""
+            m.d.sync += [
+                x.eq(column + 1),
+                within_line.eq(1),
+                at_last.eq(column == before_last),
+                wide_enough.eq(column >= config.min_width - 2),
+                left_at.eq(column),
+            ]
+
+        def finish_line(ends: Signal) -> None:
+            """The pixel that leaves is its line's last."""
             m.d.sync += [
                 x.eq(0),
                 within_line.eq(0),
                 at_last.eq(0),
+                wide_enough.eq(0),
+                line_left.eq(1),
                 y.eq(row + 1),
                 highest.eq(row == config.max_height - 2),
                 height_ends.eq(row == less_2),
                 first_line.eq(0),
-                before_last.eq(last - 1),
             ]
             with m.If(ends):
                 m.d.sync += in_frame.eq(0)
@@ -186,7 +201,7 @@ class FrameGuard(wiring.Component):
         with m.Elif(padding):
             at_end = Signal()
             m.d.comb += [
-                at_end.eq(Mux(first_line, x >= config.min_width - 1, at_last)),
+                at_end.eq(Mux(first_line, wide_enough, at_last)),
                 self.o.valid.eq(1),
                 item.left.eq(padded_left),
                 item.right.eq(padded_right),
@@ -199,7 +214,7 @@ class FrameGuard(wiring.Component):
                 advance(x)
                 with m.If(at_end):
                     m.d.sync += padding.eq(0)
-                    finish_line(x, eof_after_padding)
+                    finish_line(eof_after_padding)
         with m.Elif(skipping & ~(self.i.valid & starts)):
             m.d.comb += self.i.ready.eq(1)
             with m.If(self.i.valid & eol):
@@ -252,7 +267,7 @@ class FrameGuard(wiring.Component):
                     m.d.sync += [first_line.eq(1), y.eq(0), at_last.eq(0)]
                     m.d.sync += before_last.eq(config.max_width - 2)
                 with m.If(item.eol):
-                    finish_line(here, item.eof)
+                    finish_line(item.eof)
                 with m.If(short):
                     count("short_lines")
                     m.d.sync += padding.eq(1)

@@ -44,13 +44,8 @@ class CellInference(wiring.Component):
         self._config = config
         self._joins = joins_corners(config.rules)
         self._operator = CELL_OPERATORS[config.operator](config)
-        self._may_vanish = config.cost_range[1][0] <= 0
         self._operations = (
-            1
-            + self._operator.corner_operations
-            + self._operator.fire_operations
-            + SUM_OPERATIONS
-            + self._may_vanish
+            1 + self._operator.corner_operations + self._operator.fire_operations + SUM_OPERATIONS
         )
         self._start = start(self._operations)
         self.latency = clocks(self._operations)
@@ -93,11 +88,6 @@ class CellInference(wiring.Component):
         f_3 = choose(pipe, a_above, f_3, inverted(pipe, f_3))
         num = add_with_carry(pipe, num, f_3, a_below, *self._config.cost_range[0])
         den = pipe.within(pipe.at(den, num.time), *self._config.cost_range[1])
-        if self._may_vanish:
-            vanishes = flag(pipe, lambda v: v <= 0, den)
-            num = pipe.result(Mux(vanishes.value, 1, num.value), num.minimum, num.maximum, num.time)
-            den = pipe.result(Mux(vanishes.value, 0, den.value), 0, den.maximum, den.time)
-
         assert num.time == self._start + self._operations
         m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
         return m

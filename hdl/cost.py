@@ -41,7 +41,7 @@ class FuzzyCost(wiring.Component):
     def __init__(self, config: Config) -> None:
         self._config = config
         self._compensation = Compensation(config)
-        self._inference = _inference(config)(config, self._compensation.maxima)
+        self._inference = inference_of(config)(config, self._compensation.maxima)
         self.latency = self._compensation.latency + self._inference.latency
         super().__init__(_ports(config))
 
@@ -59,7 +59,7 @@ class FuzzyCost(wiring.Component):
         return m
 
 
-def _inference(
+def inference_of(
     config: Config,
 ) -> type[CellInference] | type[CellMeanInference] | type[MeanInference] | type[RuleInference]:
     """The smallest component that computes what is configured."""

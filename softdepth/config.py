@@ -304,9 +304,9 @@ class Config(Frozen):
                 # A cell's strengths sum to `one` but for what rounding adds.
                 return (-5 * (one + 3), 5 * (one + 3)), (1, one + 3)
             case _, _, True:
-                # Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst. The rule of the
-                # nearest labels has three memberships of a half or more.
-                return (-15 * high, 15 * high), (one // 2 + 6 * low, 6 * high)
+                # Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst. Soft-min I is
+                # concave, so that its least sum is near a corner of the cell: above a third of `one`.
+                return (-15 * high, 15 * high), (one // 4, 6 * high)
         positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
         reach = positive * (high - low)
         return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)

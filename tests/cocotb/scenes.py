@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from softdepth.config import Config
+from softdepth.config import OPERATORS, Config
 from softdepth.golden.pair import Image
-from softdepth.hdl.operators import OPERATORS
 from softdepth.sim.frames import Pair
 
 SEEDS = range(24)
@@ -98,6 +97,7 @@ def random_config(seed: int) -> Config:
             "reference": pick(["left", "right"]),
             "cost": "fuzzy" if fuzzy else "sad",
             "operator": pick(sorted(OPERATORS)),
+            "firing": pick(["all", "cell"]),
             "rules": pick(["printed", "corrected"]),
             "membership_bits": int(rng.integers(3, 9)),
             "softness": float(rng.choice([0.05, 0.05, 0.4])),

@@ -166,6 +166,28 @@ def test_the_denominator_of_soft_min_1_is_above_zero_at_the_papers_softness(bits
     assert sums(config, every_input(config))[1].min() > 0
 
 
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+@pytest.mark.parametrize("bits", [2, 3, 4])
+def test_the_denominator_of_soft_min_1_by_cell_is_above_zero_at_any_softness(bits, rules):
+    """So the gateware of a cell does not look at its sign; the least are at about 0.3."""
+    found = []
+    for softness in np.linspace(0, 1, 41):
+        config = make(bits, operator="soft_min_1", softness=float(softness), rules=rules, firing="cell")
+        s = sums(config, every_input(config))[1]
+        assert s.min() >= config.cost_range[1][0] > 0
+        found.append(s.min() / config.one)
+    assert min(found) == {2: 0.5 if rules == "printed" else 1.0, 3: 0.25, 4: 0.375}[bits]
+
+
+@pytest.mark.parametrize("softness", [0.05, 0.25, 0.3, 0.35, 0.5])
+@pytest.mark.parametrize("rules", ["printed", "corrected"])
+def test_the_denominator_of_soft_min_1_by_cell_is_above_zero_in_many_bits(rules, softness):
+    config = make(8, operator="soft_min_1", softness=softness, rules=rules, firing="cell")
+    steps = np.array([*range(0, 2 * config.one, 13), 1, 2, *range(255, 259), 511, 512], np.int32)
+    grid = [v.ravel() for v in np.meshgrid(steps, steps, steps)]
+    assert sums(config, grid)[1].min() > 0.4 * config.one
+
+
 def test_where_the_denominator_vanishes_the_cost_is_one_over_zero():
     config = make(3, **{k: v for k, v in VANISHING.items() if k != "membership_bits"})
     criteria = every_input(config)

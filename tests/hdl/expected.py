@@ -70,21 +70,28 @@ def theta(a: int, b: int, c: int, config: Config) -> int:
 
 
 def conclusions(degrees: Sequence[Triple], config: Config) -> dict[int, int]:
-    """``Y_k``: the maximum over all rules of conclusion k, each evaluated by itself.
+    """``Y_k``: the maximum over conclusion k's rules that fire, each evaluated by itself; 0 without any.
 
     For soft-min II, which is not monotone, rules that agree in criterion 1 are joined first.
     """
     first, second, third = degrees
     found = {}
     for k, rules in rule_base(config.rules).items():
+        fired = [rule for rule in rules if config.firing == "all" or in_cell(rule, degrees)]
         if config.operator == "soft_min_2":
             pairs: dict[int, int] = {}
-            for a, b, c in rules:
+            for a, b, c in fired:
                 pairs[a] = max(pairs.get(a, -1), theta_2(second[b - 1], third[c - 1], config))
-            found[k] = max(theta_2(first[a - 1], pair, config) for a, pair in pairs.items())
+            strengths = [theta_2(first[a - 1], pair, config) for a, pair in pairs.items()]
         else:
-            found[k] = max(theta(first[a - 1], second[b - 1], third[c - 1], config) for a, b, c in rules)
+            strengths = [theta(first[a - 1], second[b - 1], third[c - 1], config) for a, b, c in fired]
+        found[k] = max(strengths, default=0)
     return found
+
+
+def in_cell(rule: Triple, degrees: Sequence[Triple]) -> bool:
+    """Whether the rule has no label on the far side of T, for any criterion."""
+    return all(label != (3 if low > 0 else 1) for label, (low, _, _) in zip(rule, degrees, strict=True))
 
 
 def compensated(values: Sequence[int], near: bool, config: Config) -> list[int]:

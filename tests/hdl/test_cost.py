@@ -62,6 +62,9 @@ def model(c: Config, sets: list[Set]) -> list[tuple[int, int]]:
         {"operator": "soft_min_2"},
         {"operator": "soft_min_2", "sharpness": 30.0},
         {"operator": "soft_min_2", "sharpness": -10.0},
+        {"operator": "mean", "firing": "cell"},
+        {"operator": "soft_min_1", "firing": "cell"},
+        {"operator": "soft_min_2", "firing": "cell"},
     ],
     ids=str,
 )

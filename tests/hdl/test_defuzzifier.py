@@ -13,8 +13,7 @@ from .support import config, piped
 KS = range(1, CONCLUSIONS + 1)
 
 OPERATORS: list[dict[str, Any]] = [
-    {"operator": "min", "membership_bits": 2},
-    {"operator": "prod", "membership_bits": 8, "lanes": 1},
+    {"operator": "soft_min_2", "membership_bits": 2},
     # With the rules as printed, MEAN's conclusions do not reach their extremes together.
     {"operator": "mean", "membership_bits": 8, "rules": "corrected"},
     {"operator": "mean", "membership_bits": 12, "rules": "corrected"},

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from softdepth.hdl.operators.minimum import Minimum
+from softdepth.hdl.operators.mean import Mean
 from softdepth.hdl.pipeline import Pipeline
 from softdepth.hdl.rule_array import RuleArray
 
@@ -26,8 +26,6 @@ def inputs(one: int, bits: int) -> list[list[tuple[int, int, int]]]:
 
 
 OPERATORS: list[dict[str, Any]] = [
-    {"operator": "min"},
-    {"operator": "prod"},
     {"operator": "mean"},
     {"operator": "soft_min_1"},
     {"operator": "soft_min_1", "softness": 0.4},
@@ -66,8 +64,8 @@ def test_the_printed_table_takes_22_thetas_and_8_maxima(monkeypatch: pytest.Monk
 
         monkeypatch.setattr(owner, name, call)
 
-    for owner, name in ((Minimum, "pair"), (Minimum, "fire"), (Pipeline, "max")):
+    for owner, name in ((Mean, "pair"), (Mean, "fire"), (Pipeline, "max")):
         counted(owner, name)
-    observe(RuleArray(config(operator="min")), [{}], "o")
+    observe(RuleArray(config(operator="mean")), [{}], "o")
     assert calls.count("pair") + calls.count("fire") == 22
     assert calls.count("max") == 8

@@ -13,13 +13,19 @@ def candidate_layout(num: ShapeLike, den: ShapeLike, indices: int) -> data.Struc
     return data.StructLayout({"num": num, "den": den, "index": range(indices), "excluded": 1})
 
 
+def latency(layout: data.StructLayout) -> int:
+    """Clocks that `FractionMin` takes for candidates of this layout."""
+    return 4 if Shape.cast(layout.members["den"]).width else 2
+
+
 class FractionMin(wiring.Component):
     """The better of two candidates: the smaller fraction, and the smaller index on a tie.
 
     ``a.num / a.den < b.num / b.den`` is decided as ``a.num * b.den < b.num * a.den``: two
     multiplications, no division, nothing rounded. An excluded candidate loses against any other.
-    One pair a clock. Nothing but registers stands before and behind the multipliers, so that an FPGA's own,
-    far from the logic, can take them in.
+    One pair a clock. Nothing but registers stands before and behind the multipliers, which are far from the
+    logic and have registers of their own: a clock each for the way there, the products, the comparison and
+    the choice. Plain numbers take the last two.
 
     Parameters
     ----------
@@ -31,10 +37,8 @@ class FractionMin(wiring.Component):
     Members
     -------
     a, b : the candidates.
-    o : the better one, ``latency`` clocks later.
+    o : the better one, `latency` clocks later.
     """
-
-    latency = 3
 
     def __init__(self, layout: data.StructLayout, *, halves: bool = False) -> None:
         self._layout = layout
@@ -44,48 +48,44 @@ class FractionMin(wiring.Component):
             members = dict(layout.members)
             members["index"] = unsigned(Shape.cast(members["index"]).width + 1)
             best = data.StructLayout(members)
+        self.latency = latency(layout)
         super().__init__({"a": In(layout), "b": In(layout), "o": Out(best)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        entering_a, entering_b, a, b = (
-            Signal(self._layout, name=name, reset_less=True)
-            for name in ("entering_a", "entering_b", "a", "b")
-        )
-        best = Signal(self.o.shape(), reset_less=True)
-        left: ValueLike
-        right: ValueLike
+        # The candidates in each clock, until one of them is chosen.
+        clocks: list[tuple[data.View, data.View]] = [(self.a, self.b)]
+        for clock in range(1, self.latency):
+            a, b = (Signal(self._layout, name=f"{name}_{clock}", reset_less=True) for name in "ab")
+            m.d.sync += [a.eq(clocks[-1][0]), b.eq(clocks[-1][1])]
+            clocks.append((a, b))
+        compared, (a, b) = clocks[-2:]
+
+        left, right = (Value.cast(candidate.num) for candidate in compared)
         if len(self.a.den):
-            shape = (a.num * b.den).shape()
-            left = Signal(shape, reset_less=True)
-            right = Signal(shape, reset_less=True)
-            m.d.sync += [
-                left.eq(entering_a.num * entering_b.den),
-                right.eq(entering_b.num * entering_a.den),
-            ]
-        else:
-            left, right = a.num, b.num
+            operand_a, operand_b = clocks[1]
+            products = operand_a.num * operand_b.den, operand_b.num * operand_a.den
+            left, right = (
+                Signal(products[0].shape(), name=name, reset_less=True) for name in ("left", "right")
+            )
+            m.d.sync += [left.eq(products[0]), right.eq(products[1])]
         # The sign of a difference comes straight out of a carry chain, a comparison does not.
-        difference = Value.cast(right) - Value.cast(left)
-        right_smaller = difference[-1]
-        b_wins = Signal()
-        index: ValueLike
+        right_smaller = (right - left)[-1]
+        wins: ValueLike
         if self._halves:
-            m.d.comb += b_wins.eq(right_smaller & ~b.excluded)
-            index = Cat(Mux(b_wins, b.index, a.index), b_wins)
+            wins = right_smaller & ~compared[1].excluded
         else:
-            b_better = right_smaller | ((right == left) & (b.index < a.index))
-            m.d.comb += b_wins.eq(~b.excluded & (a.excluded | b_better))
-            index = Mux(b_wins, b.index, a.index)
+            b_better = right_smaller | ((right == left) & (compared[1].index < compared[0].index))
+            wins = ~compared[1].excluded & (compared[0].excluded | b_better)
+        b_wins = Signal(reset_less=True)
+        best = Signal(self.o.shape(), reset_less=True)
+        index = Mux(b_wins, b.index, a.index)
         m.d.sync += [
-            entering_a.eq(self.a),
-            entering_b.eq(self.b),
-            a.eq(entering_a),
-            b.eq(entering_b),
+            b_wins.eq(wins),
             best.num.eq(Mux(b_wins, b.num, a.num)),
             best.den.eq(Mux(b_wins, b.den, a.den)),
             best.excluded.eq(a.excluded & b.excluded),
-            best.index.eq(index),
+            best.index.eq(Cat(index, b_wins) if self._halves else index),
         ]
         m.d.comb += self.o.eq(best)
         return m
@@ -104,7 +104,7 @@ class ArgminTree(wiring.Component):
     def __init__(self, num: ShapeLike, den: ShapeLike, count: int) -> None:
         self._leaf = candidate_layout(num, den, 1)
         self._count = count
-        self.latency = FractionMin.latency * (count - 1).bit_length()
+        self.latency = latency(self._leaf) * (count - 1).bit_length()
         super().__init__(
             {"i": In(data.ArrayLayout(self._leaf, count)), "o": Out(candidate_layout(num, den, count))}
         )
@@ -122,7 +122,7 @@ class ArgminTree(wiring.Component):
             if len(level) % 2:
                 # The last one has no rival on this level: it is the lower half of its range.
                 waiting = level[-1]
-                for stage in range(FractionMin.latency):
+                for stage in range(latency(self._leaf)):
                     register = Signal(
                         following[0].shape(), name=f"wait_{len(level)}_{stage}", reset_less=True
                     )
@@ -150,7 +150,7 @@ class ArgminSequence(wiring.Component):
     def __init__(self, layout: data.StructLayout, count: int) -> None:
         self._layout = layout
         self._levels = (count - 1).bit_length()
-        self.latency = FractionMin.latency * self._levels
+        self.latency = latency(layout) * self._levels
         super().__init__({"valid": In(1), "last": In(1), "i": In(layout), "o": Out(layout)})
 
     def elaborate(self, platform: object) -> Module:
@@ -170,7 +170,7 @@ class ArgminSequence(wiring.Component):
             with m.If(valid):
                 m.d.sync += [second.eq(~second & ~last), held.eq(current)]
             valid, last, current = emits, last, node.o
-            for stage in range(FractionMin.latency):
+            for stage in range(latency(self._layout)):
                 for_valid = Signal(name=f"valid_{level}_{stage}")
                 for_last = Signal(name=f"last_{level}_{stage}", reset_less=True)
                 m.d.sync += [for_valid.eq(valid), for_last.eq(last)]

@@ -64,18 +64,20 @@ class CellInference(wiring.Component):
         both = flag(pipe, lambda b, c: b & c, b_above, c_above)
         neither = flag(pipe, lambda b, c: ~b & ~c, b_above, c_above)
         if self._joins:
-            # The corner is the larger of the two.
+            # The larger pair is found once, and then whose strengths count.
             corner = choose(pipe, pipe.at(b_above, ready), pairs[2], pairs[0])
-            larger = flag(pipe, lambda v: v[-1], pipe.add(pairs[1], inverted(pipe, corner)))
+            larger = flag(pipe, lambda v: ~v[-1], pipe.add(corner, inverted(pipe, pairs[1])))
             in_f = flag(pipe, lambda above, n: above & n, a_above, neither)
             f1 = choose(pipe, flag(pipe, lambda x, y: x & y, in_f, larger), f0, f1)
             f0 = masked(pipe, f0, in_f, keep=0)
             g1 = choose(pipe, flag(pipe, lambda x, y: x & y, both, larger), g2, g1)
             g2 = masked(pipe, g2, both, keep=0)
 
-        _, high = self._config.strength_range
+        low, high = self._config.strength_range
         f = pipe.add(pipe.add(f0, f1), f2)
-        den = pipe.add(f, pipe.add(pipe.add(g1, g2), g0))
+        g = pipe.add(g1, g2)
+        # A carry of 0: without it, synthesis makes one sum of three operands, which takes more logic.
+        den = pipe.add(f, add_with_carry(pipe, g, g0, constant(0, g), 3 * low, 3 * high))
         # What complements lack: 1 in f2 - f0, and none in g2 - g0, which is one of a complement.
         f_rise = pipe.add(f2, inverted(pipe, f0))
         g_fall = pipe.add(g0, inverted(pipe, g2))

@@ -69,4 +69,4 @@ def excess(pipeline: Pipeline, a: Word, b: Word, one: int) -> Word:
 
 def constant(value: int, beside: Word) -> Word:
     """A constant of the time of a word."""
-    return Word(Const(value, Shape.cast(range(min(value, 0), max(value, 0) + 1))), value, value, beside.time)
+    return Word(Const(value, Shape.cast(range(min(value, 0), max(value, 1) + 1))), value, value, beside.time)

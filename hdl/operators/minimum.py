@@ -18,10 +18,13 @@ class Minimum:
 
     def corners(self, pipeline: Pipeline, b: Word, c: Word) -> Corners:
         """``one - max(b, c)``, ``min(max(b, c), one - min(b, c))`` and ``min(b, c)``."""
-        _, p2, larger = order(pipeline, b, c)
-        short = flag(pipeline, lambda v: v[-1], excess(pipeline, b, c, self._one))
-        p0 = self._rest(pipeline, larger)
-        return p0, self._rest(pipeline, choose(pipeline, short, p0, p2)), p2
+        one = self._one
+        _, p2, _ = order(pipeline, b, c)
+        sum_ = excess(pipeline, b, c, one)
+        short = flag(pipeline, lambda v: v[-1], sum_)
+        p0 = add_with_carry(pipeline, p2, inverted(pipeline, sum_), constant(1, p2), 0, one)
+        rest = complement(pipeline, choose(pipeline, short, p0, p2), one)  # of the larger one, less 1
+        return p0, add_with_carry(pipeline, rest, constant(0, p0), constant(1, p0), 0, one), p2
 
     def fire(self, pipeline: Pipeline, a: Position, pair: Word) -> tuple[Word, Word]:
         """``min(outer, pair)`` and ``min(middle, pair)``."""
@@ -30,8 +33,3 @@ class Minimum:
         f = choose(pipeline, pair_smaller, pair, a.outer)
         g = choose(pipeline, pair_below_middle, pair, a.middle)
         return pipeline.result(f.value, 0, self._one, f.time), pipeline.result(g.value, 0, self._one, g.time)
-
-    def _rest(self, pipeline: Pipeline, word: Word) -> Word:
-        """``one - word``."""
-        inverse = complement(pipeline, word, self._one)
-        return add_with_carry(pipeline, inverse, constant(0, word), constant(1, word), 0, self._one)

@@ -5,16 +5,16 @@ from softdepth.hdl.adders import add_with_carry
 from softdepth.hdl.operators.cell import Corners, Position, complement, constant, excess
 from softdepth.hdl.operators.distance_table import DistanceTable
 from softdepth.hdl.pipeline import Pipeline, Word
-from softdepth.hdl.wires import choose, flag, inverted
+from softdepth.hdl.wires import choose, flag, inverted, masked
 from softdepth.soft import soft_min_1_table, soft_min_2_table
 
 
 class SoftExtremum:
-    """Theta as ``min(a, b) + g(|a - b|)`` or ``max(a, b) - h(|a - b|)``, each one carry chain.
+    """Theta as ``min(a, b) + g(|a - b|)`` or ``max(a, b) - h(|a - b|)``.
 
     One distance, ``|b - c|``, serves both corners of a cell, and the other, ``|b + c - one|``, the two
-    pairs between. The lower membership ``one - f`` is the complement of f and 1 more, which is part of
-    the correction. All tables are looked up by the sum or difference itself.
+    pairs between; all tables are looked up by the difference or sum itself. Choosing an operand and
+    correcting it is one carry chain.
     """
 
     def __init__(self, config: Config) -> None:
@@ -44,40 +44,35 @@ class SoftExtremum:
         # What is chosen goes straight into an addition: registers come before the choice.
         difference, b, c = (pipeline.at(word, same.time) for word in (difference, b, c))
         c_larger = flag(pipeline, lambda v: v[-1], difference)
-        lower, upper = (b, c) if keeps else (c, b)
-        lower, upper = choose(pipeline, c_larger, lower, upper), choose(pipeline, c_larger, upper, lower)
-        p0 = add_with_carry(pipeline, complement(pipeline, lower, one), same, constant(1, same), *self._pairs)
-        p2 = pipeline.within(pipeline.add(upper, same), *self._pairs)
-
-        # The pairs between are b and one - c, c and one - b. Their extreme is a corner's own operand, or
-        # for the minimum its complement.
-        extreme = choose(pipeline, flag(pipeline, lambda v: v[-1], pipeline.at(sum_, p0.time)), p0, p2)
-        extreme = extreme if keeps else complement(pipeline, extreme, one)
-        same = inverted(pipeline, same) if keeps else same
-        low, high = mixed.minimum + same.minimum + 1, mixed.maximum + same.maximum + 1
-        correction = add_with_carry(pipeline, mixed, same, constant(1, same), low, high)
-        return p0, pipeline.within(pipeline.add(extreme, correction), *self._pairs), p2
+        smaller, larger = choose(pipeline, c_larger, b, c), choose(pipeline, c_larger, c, b)
+        p2 = pipeline.within(pipeline.add(larger if keeps else smaller, same), *self._pairs)
+        # one - b and one - c are c and b, less what b + c exceeds one by.
+        p0 = _less(pipeline, p2, sum_, *self._pairs)
+        short = flag(pipeline, lambda v: v[-1], sum_)
+        p1 = pipeline.add(larger, mixed)
+        sum_, short = pipeline.at(sum_, p1.time), pipeline.at(short, p1.time)
+        return p0, _less(pipeline, p1, masked(pipeline, sum_, short, keep=keeps), *self._pairs), p2
 
     def fire(self, pipeline: Pipeline, a: Position, pair: Word) -> tuple[Word, Word]:
         """See `CellOperator`."""
-        one = self._one
+        one, keeps = self._one, self._maximum
         difference = pipeline.add(a.outer, inverted(pipeline, pair))  # less 1
         sum_ = excess(pipeline, a.outer, pair, one)
         in_f = self._table.lookup(pipeline, difference, less_1=True)
         in_g = self._table.lookup(pipeline, sum_)
 
-        difference, sum_, outer, pair = (
-            pipeline.at(word, in_f.time) for word in (difference, sum_, a.outer, pair)
-        )
-        middle = complement(pipeline, outer, one)
-        takes_pair_f = flag(pipeline, lambda v: v[-1] if self._maximum else ~v[-1], difference)
-        takes_pair_g = flag(pipeline, lambda v: ~v[-1] if self._maximum else v[-1], sum_)
-        f = pipeline.add(choose(pipeline, takes_pair_f, pair, outer), in_f)
+        # A carry cell has room for a choice of a complement only where 0 chooses the other operand.
+        takes_middle = pipeline.at(flag(pipeline, lambda v: v[-1] == keeps, sum_), in_g.time)
+        outer, pair = pipeline.at(a.outer, in_f.time), pipeline.at(pair, in_f.time)
+        takes_pair = flag(pipeline, lambda v: v[-1] == keeps, pipeline.at(difference, in_f.time))
+        f = pipeline.add(choose(pipeline, takes_pair, pair, outer), in_f)
+        middle = complement(pipeline, outer, one)  # less 1
         g = add_with_carry(
-            pipeline,
-            choose(pipeline, takes_pair_g, pair, middle),
-            in_g,
-            flag(pipeline, lambda taken: ~taken, takes_pair_g),  # which the complement lacks
-            *self._strengths,
+            pipeline, choose(pipeline, takes_middle, middle, pair), in_g, takes_middle, *self._strengths
         )
         return pipeline.within(f, *self._strengths), g
+
+
+def _less(pipeline: Pipeline, a: Word, b: Word, minimum: int, maximum: int) -> Word:
+    """``a - b``, known to lie within a range."""
+    return add_with_carry(pipeline, a, inverted(pipeline, b), constant(1, a), minimum, maximum)

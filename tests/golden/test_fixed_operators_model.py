@@ -116,8 +116,8 @@ def test_the_strengths_of_prod_sum_to_one_but_for_rounding(bits):
 )
 def test_rules_outside_the_cell_matter_where_they_have_a_strength(keys, equal, rules):
     apart, together = (make(4, rules=rules, firing=firing, **keys) for firing in ("all", "cell"))
-    found = [np.array(sums(config, every_input(config))) for config in (apart, together)]
-    assert np.array_equal(*found) == equal
+    all_27, of_cell = (np.array(sums(config, every_input(config))) for config in (apart, together))
+    assert np.array_equal(all_27, of_cell) == equal
     assert together.by_cell
     assert apart.by_cell == (keys["operator"] in ("min", "prod"))
 

@@ -6,6 +6,11 @@ from softdepth.errors import ConfigError
 from softdepth.rules import RuleBaseName, rule_base
 
 Rules = frozenset[tuple[int, int, int]]
+Cell = tuple[bool, bool, bool]
+"""Which of the three criteria are above T."""
+
+_SIDES = (False, True)
+_CELLS = [(a, b, c) for a in _SIDES for b in _SIDES for c in _SIDES]
 
 
 def joins_corners(name: RuleBaseName) -> bool:
@@ -17,17 +22,14 @@ def joins_corners(name: RuleBaseName) -> bool:
     neither: the gateware would compute something else.
     """
     for joins in (False, True):
-        if all(
-            cell_conclusions(upper, joins=joins) == _of_table(name, upper)
-            for upper in product((False, True), repeat=3)
-        ):
+        if all(cell_conclusions(upper, joins=joins) == _of_table(name, upper) for upper in _CELLS):
             return joins
     raise ConfigError(
         f"the rules '{name}' of a cell are not six conclusions of successive weights", "use firing = 'all'"
     )
 
 
-def cell_conclusions(upper: tuple[bool, bool, bool], *, joins: bool) -> dict[int, Rules]:
+def cell_conclusions(upper: Cell, *, joins: bool) -> dict[int, Rules]:
     """The rules of each conclusion that has any, in the cell above (`upper`) or below T of each criterion.
 
     Pairs of criteria 2 and 3 rank by their number of upper labels, 0 to 2, and criterion 1's outer
@@ -52,7 +54,7 @@ def cell_conclusions(upper: tuple[bool, bool, bool], *, joins: bool) -> dict[int
     return found
 
 
-def _of_table(name: RuleBaseName, upper: tuple[bool, bool, bool]) -> dict[int, Rules]:
+def _of_table(name: RuleBaseName, upper: Cell) -> dict[int, Rules]:
     """The same from the rule base itself."""
     labels = [{1 + up, 2 + up} for up in upper]
     found = {

@@ -26,7 +26,7 @@ class LineBuffer(wiring.Component):
     column : its column, top row first, `latency` clocks later, held until the next.
     """
 
-    latency = 3
+    latency = 4
 
     def __init__(self, width: int, rows: int, max_width: int) -> None:
         self._width = width
@@ -64,7 +64,10 @@ class LineBuffer(wiring.Component):
         ]
         with m.If(entered):
             m.d.sync += held.eq(column)
-        m.d.comb += self.column.eq(held)
+        # From here on the column is on its way to all lanes.
+        leaving = Signal.like(column, reset_less=True)
+        m.d.sync += leaving.eq(held)
+        m.d.comb += self.column.eq(leaving)
         if self._rows == 1:
             m.d.comb += column[0].eq(pixel)
             return m

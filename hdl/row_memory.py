@@ -7,7 +7,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.pipeline import travelling
 from softdepth.hdl.sliced_memory import SlicedMemory
 
-LOOKUP_AHEAD = 1
+LOOKUP_AHEAD = 2
 """Clocks that a place is looked up before its columns are there to compare."""
 
 
@@ -31,7 +31,7 @@ class RowMemory(wiring.Component):
     rows : and on the lines before, oldest first, in the same clock as ``newest``.
     """
 
-    latency = 3
+    latency = 4
 
     def __init__(self, shape: ShapeLike, rows: int, places: int) -> None:
         self._layout = data.ArrayLayout(shape, rows)
@@ -53,22 +53,22 @@ class RowMemory(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.costs = costs = SlicedMemory(self._layout, self._places)
-        # Two registers after the memory: its own, and one that may lie beside the adders.
+        # A register before the memory, as places come to all lanes from afar, and two behind it: its own, and
+        # one that may lie beside the adders.
         read = Signal(self._layout, reset_less=True)
         rows = Signal(self._layout, reset_less=True)
         m.d.sync += [read.eq(costs.data), rows.eq(read)]
         valid = travelling(m, self.valid, self.latency, "valid")
-        place = self.place
-        for clock in range(self.latency):
-            following = Signal(range(self._places), name=f"place_{clock + 1}", reset_less=True)
-            m.d.sync += following.eq(place)
-            place = following
+        place = [self.place]
+        for clock in range(1, self.latency + 1):
+            place.append(Signal(range(self._places), name=f"place_{clock}", reset_less=True))
+            m.d.sync += place[clock].eq(place[clock - 1])
         m.d.comb += [
-            costs.read.eq(self.valid),
-            costs.read_at.eq(self.place),
+            costs.read.eq(valid[1]),
+            costs.read_at.eq(place[1]),
             self.rows.eq(rows),
             costs.written.as_value().eq(Cat(*(rows[k] for k in range(1, self._layout.length)), self.newest)),
             costs.write.eq(valid[self.latency]),
-            costs.write_at.eq(place),
+            costs.write_at.eq(place[self.latency]),
         ]
         return m

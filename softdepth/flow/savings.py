@@ -20,12 +20,14 @@ from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.limits import taken
 from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_rtlil
+from softdepth.rules import Firing
 
 DOCUMENT = Path("docs/area.md")
 FIGURES = DOCUMENT.with_suffix(".json")
 ALL = PASSES["ecp5"]
 MOST_MULTIPLIERS = 9999
 """Only one lane is built, whatever a part could hold of them."""
+LANES = ("paper", "compact", "lite", "sad")
 CORE = ("disparities=64", "lanes=32", "max_width=1280")
 
 
@@ -41,7 +43,7 @@ class Variant:
     changes: tuple[str, ...] = ()
     passes: tuple[NetlistPass, ...] = ALL
     collisions: bool = False
-    presets: tuple[str, ...] = ("paper", "lite", "sad")
+    presets: tuple[str, ...] = LANES
 
 
 ROW_MEMORY = "rows remembered in block RAM"
@@ -51,9 +53,11 @@ VARIANTS = (
     Variant(ROW_MEMORY, changes=("stored_rows=0",)),
     Variant("collisions in block RAM that do not matter", collisions=True),
     Variant("block RAM's own output registers", passes=_all_but(absorb_ram_registers)),
-    # The rule array computes the corrected table; the printed one takes as much of it.
-    Variant("MEAN in closed form", changes=("rules=corrected",), presets=("paper", "lite")),
-    Variant("any of these", changes=("stored_rows=0", "rules=corrected"), passes=()),
+    # Without its closed form, what computes the other table takes as much for this one.
+    Variant("MEAN in closed form", changes=("rules=corrected",), presets=("paper",)),
+    Variant("MEAN in closed form, in the cell", changes=("rules=printed",), presets=("compact", "lite")),
+    Variant("rules of the cell alone", changes=("firing=all", "rules=printed"), presets=("compact", "lite")),
+    Variant("any of these", changes=("stored_rows=0", "firing=all", "rules=corrected"), passes=()),
 )
 
 
@@ -69,7 +73,7 @@ def measure(config: Config, variant: Variant) -> dict[str, int]:
     return {**taken(netlist), "dsp": cells(netlist)["MULT18X18D"]}
 
 
-def page(presets: Sequence[str] = ("paper", "lite", "sad")) -> str:
+def page(presets: Sequence[str] = LANES) -> str:
     """The table: a row for each saving, with what a lane takes without it."""
     lines = [
         "| without | " + " | ".join(f"{p}: LUT4 | FF | block RAM" for p in presets) + " |",
@@ -89,26 +93,34 @@ def page(presets: Sequence[str] = ("paper", "lite", "sad")) -> str:
     return "\n".join(lines)
 
 
-def operators() -> dict[str, dict[str, int]]:
-    """What a lane of `paper` takes with each operator."""
-    found = {}
+def operators() -> dict[Firing, dict[str, dict[str, int]]]:
+    """What a lane of `paper` takes with each operator: over all rules, and the cell's if that differs."""
+    found: dict[Firing, dict[str, dict[str, int]]] = {"all": {}, "cell": {}}
     for operator in OPERATORS:
-        screen.note(f"operator {operator}")
-        changes = (f"operator={operator}", f"max_multipliers={MOST_MULTIPLIERS}")
-        found[operator] = measure(Config.preset("paper").override([*CORE, *changes]), VARIANTS[0])
+        for firing, lanes in found.items():
+            changes = (f"operator={operator}", f"firing={firing}", f"max_multipliers={MOST_MULTIPLIERS}")
+            config = Config.preset("paper").override([*CORE, *changes])
+            if firing == "cell" and config.override(["firing=all"]).by_cell:
+                continue  # one and the same
+            screen.note(f"operator {operator}, firing {firing}")
+            lanes[operator] = measure(config, VARIANTS[0])
     return found
 
 
-def operator_page(found: dict[str, dict[str, int]]) -> str:
+def operator_page(found: dict[Firing, dict[str, dict[str, int]]]) -> str:
     """The same as a table."""
-    mean = found["mean"]["lut4"]
+    mean = found["all"]["mean"]["lut4"]
     rows = (
-        f"| {operator} | {lane['lut4']} | {lane['lut4'] / mean:.2f} | {lane['ff']} | {lane['dsp']} |"
-        for operator, lane in found.items()
+        f"| {operator} | {firing} | {lut4} | {lut4 / mean:.2f} | {lane['ff']} | {lane['dsp']} |"
+        for firing, lanes in found.items()
+        for operator, lane in lanes.items()
+        if (lut4 := lane["lut4"])
     )
-    return "\n".join(
-        ["| operator | LUT4 | of MEAN's | FF | multipliers |", "|---|---:|---:|---:|---:|", *rows]
-    )
+    heads = [
+        "| operator | rules that fire | LUT4 | of MEAN's over all | FF | multipliers |",
+        "|---|---|---:|---:|---:|---:|",
+    ]
+    return "\n".join([*heads, *rows])
 
 
 def main() -> None:
@@ -123,7 +135,8 @@ def main() -> None:
         print(f"error: {error}", file=sys.stderr)
         raise SystemExit(2) from None
     DOCUMENT.write_text(text)
-    FIGURES.write_text(json.dumps({"preset": "paper", "lanes": lanes}, indent=1) + "\n")
+    figures = {"preset": "paper", "lanes": lanes["all"], "lanes_of_the_cell": lanes["cell"]}
+    FIGURES.write_text(json.dumps(figures, indent=1) + "\n")
 
 
 if __name__ == "__main__":

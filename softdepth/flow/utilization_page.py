@@ -21,12 +21,11 @@ VIDEO_MODES = {
 RECOMMENDED = tuple(
     Selection.model_validate({"preset": preset, "operator": operator, "lanes": lanes})
     for preset, operator, lanes in (
-        *((preset, "mean", lanes) for preset in ("paper", "lite", "sad") for lanes in (8, 32)),
-        *(("paper", operator, 8) for operator in ("min", "soft_min_1", "soft_min_2")),
-        ("paper", "prod", 4),
+        *((preset, "mean", lanes) for preset in ("paper", "compact", "lite", "sad") for lanes in (8, 32)),
+        *(("compact", operator, 8) for operator in ("min", "prod", "soft_min_1", "soft_min_2")),
     )
 )
-"""The rows of the table. PROD has as many lanes as the part has multipliers for."""
+"""The rows of the table."""
 
 QUICK = tuple(row for row in RECOMMENDED if row.lanes == 8 and row.operator == "mean")
 """The rows that take minutes, not hours."""

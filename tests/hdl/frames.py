@@ -61,7 +61,7 @@ def frames(items: Iterable[Any], c: Config) -> list[Frame]:
         if item.end:
             assert is_open, "an end without a frame"
             assert fresh, "an end inside a line"
-            assert not (item.first or item.completes or item.inner or item.first_inner)
+            assert not any((item.first, item.completes, item.inner, item.first_inner))
             found[-1].damaged.append(bool(item.damaged))
             found[-1].end, is_open = "end", False
             continue

@@ -21,5 +21,10 @@ def test_each_saving_saves():
 
 def test_operators_are_set_beside_mean():
     lane = {"ff": 5, "ebr": 0, "dsp": 2}
-    table = operator_page({"min": {**lane, "lut4": 150}, "mean": {**lane, "lut4": 100}}).splitlines()
-    assert table[2:] == ["| min | 150 | 1.50 | 5 | 2 |", "| mean | 100 | 1.00 | 5 | 2 |"]
+    over_all = {"min": {**lane, "lut4": 150}, "mean": {**lane, "lut4": 100}}
+    table = operator_page({"all": over_all, "cell": {"mean": {**lane, "lut4": 60}}}).splitlines()
+    assert table[2:] == [
+        "| min | all | 150 | 1.50 | 5 | 2 |",
+        "| mean | all | 100 | 1.00 | 5 | 2 |",
+        "| mean | cell | 60 | 0.60 | 5 | 2 |",
+    ]

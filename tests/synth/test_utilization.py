@@ -90,7 +90,7 @@ def test_the_recommended_rows_are_sound_configurations():
         assert (config.disparities, config.max_width) == (64, 1280)
     assert set(utilization_page.QUICK) < set(utilization_page.RECOMMENDED)
     presets = {(s.preset, s.lanes) for s in utilization_page.RECOMMENDED if s.operator == "mean"}
-    assert presets >= {(p, n) for p in ("paper", "lite", "sad") for n in (8, 32)}
+    assert presets >= {(p, n) for p in ("paper", "compact", "lite", "sad") for n in (8, 32)}
 
 
 def test_the_measuring_top_reads_every_output_and_feeds_every_input():

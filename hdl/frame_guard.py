@@ -113,7 +113,7 @@ class FrameGuard(wiring.Component):
         previous_rows = Signal.like(rows)
         agreed = Signal()  # the two frames before were equally high
         height = Signal.like(rows)  # 0: not known yet
-        is_1, less_2 = Signal(), Signal.like(rows)  # of the height
+        is_known, is_1, less_2 = Signal(), Signal(), Signal.like(rows)  # of the height
         row = Signal.like(y)
         m.d.comb += row.eq(Mux(starts, 0, y))
         # The row is the last possible, or the last of the learnt height: known a row ahead.
@@ -228,7 +228,7 @@ class FrameGuard(wiring.Component):
             with m.Else():
                 early = Signal()
                 m.d.comb += [
-                    early.eq(marks_end | (height != 0)),
+                    early.eq(marks_end | is_known),
                     self.o.valid.eq(1),
                     item.end.eq(1),
                     item.first.eq(0),
@@ -284,6 +284,7 @@ class FrameGuard(wiring.Component):
         m.d.comb += counted.eq(Mux(began, 0, rows))
         m.d.sync += [
             rows.eq(counted + (line_ended & (counted != config.max_height))),
+            is_known.eq(height != 0),
             is_1.eq(height == 1),
             less_2.eq(height - 2),
         ]

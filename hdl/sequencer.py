@@ -66,7 +66,7 @@ class Sequencer(wiring.Component):
         width_less_1 = Signal.like(width)
         row = Signal.like(y)
         # Both rows lie below a frame's first, whose first pixel says of itself that it completes nothing.
-        on_first_row = Signal()  # `row` is the first that completes a result's support
+        on_first_row = Signal()  # `row` is the first that completes a result's support, and none did yet
         on_inner_rows = Signal()  # and the first that completes one inside the image
         m.d.comb += row.eq(Mux(item.sof, 0, y))
 
@@ -84,7 +84,7 @@ class Sequencer(wiring.Component):
         own = Signal()
         ends = Signal()
         m.d.comb += [
-            starts.eq(~started & on_first_row & item.completes),
+            starts.eq(on_first_row & item.completes),
             own.eq(started | starts),
             ends.eq(item.eof | item.end),
         ]
@@ -150,7 +150,7 @@ class Sequencer(wiring.Component):
             with m.If(item.inner & (room_now != config.disparities - 1)):
                 m.d.sync += room.eq(room_now + 1)
             with m.If(starts):
-                m.d.sync += started.eq(1)
+                m.d.sync += [started.eq(1), on_first_row.eq(0)]
             with m.If(item.sof):
                 m.d.sync += [y.eq(0), on_first_row.eq(0), on_inner_rows.eq(0)]
             with m.If(item.eol):

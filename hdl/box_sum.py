@@ -51,7 +51,7 @@ class BoxSum(wiring.Component):
 
         def box(width: int) -> Word:
             if width not in sums:
-                near = (width + 1) // 2
+                near = width // 2
                 sums[width] = pipeline.add(box(near), pixels_ago(box(width - near), near))
             return sums[width]
 

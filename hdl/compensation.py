@@ -1,10 +1,11 @@
 """The compensating rule against false near objects (Bobyr et al. 2021, section 4, step 3)."""
 
 from amaranth.hdl import Module, Mux, Signal
-from amaranth.lib import data, wiring
+from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import LITERAL_INPUT, Config
+from softdepth.hdl.criteria import criteria_layout
 
 
 class Compensation(wiring.Component):
@@ -27,10 +28,8 @@ class Compensation(wiring.Component):
         super().__init__(
             {
                 "near": In(1),
-                "i": In(
-                    data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(config.criteria)})
-                ),
-                "o": Out(data.StructLayout({f"s{i}": range(n + 1) for i, n in enumerate(self.maxima)})),
+                "i": In(criteria_layout(c.maximum for c in config.criteria)),
+                "o": Out(criteria_layout(self.maxima)),
             }
         )
 
@@ -47,10 +46,6 @@ class Compensation(wiring.Component):
             m.d.sync += output[f"s{i}"].eq(Mux(replace, replacement, self.i[f"s{i}"]))
         m.d.comb += self.o.eq(output)
         return m
-
-
-def _layout(maxima: list[int]) -> data.StructLayout:
-    return data.StructLayout({f"s{i}": range(maximum + 1) for i, maximum in enumerate(maxima)})
 
 
 def _replacement(config: Config, label_bits: int) -> int:

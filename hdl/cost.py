@@ -8,13 +8,9 @@ from softdepth.config import Config
 from softdepth.hdl.cell_inference import CellInference
 from softdepth.hdl.cell_mean_inference import CellMeanInference
 from softdepth.hdl.compensation import Compensation
+from softdepth.hdl.criteria import criteria_layout
 from softdepth.hdl.inference import RuleInference
 from softdepth.hdl.mean_inference import MeanInference
-
-
-def criteria_layout(config: Config) -> data.StructLayout:
-    """The values of all criteria of one candidate, ``s0`` onwards."""
-    return data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(config.criteria)})
 
 
 def fraction_layout(config: Config) -> data.StructLayout:
@@ -25,7 +21,8 @@ def fraction_layout(config: Config) -> data.StructLayout:
 
 
 def _ports(config: Config) -> dict[str, wiring.Member]:
-    return {"near": In(1), "i": In(criteria_layout(config)), "o": Out(fraction_layout(config))}
+    criteria = criteria_layout(c.maximum for c in config.criteria)
+    return {"near": In(1), "i": In(criteria), "o": Out(fraction_layout(config))}
 
 
 class FuzzyCost(wiring.Component):

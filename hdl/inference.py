@@ -1,10 +1,11 @@
 """Fuzzy inference: from the criteria of a candidate to its cost as a fraction."""
 
 from amaranth.hdl import Module
-from amaranth.lib import data, wiring
+from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
+from softdepth.hdl.criteria import criteria_layout
 from softdepth.hdl.defuzzifier import Defuzzifier
 from softdepth.hdl.membership import Membership
 from softdepth.hdl.rule_array import RuleArray
@@ -14,7 +15,7 @@ def inference_ports(config: Config, maxima: list[int]) -> dict[str, wiring.Membe
     """Criteria up to ``maxima`` in, a fraction within `Config.cost_range` out."""
     (num_low, num_high), (_, den_high) = config.cost_range
     return {
-        "i": In(data.StructLayout({f"s{i}": range(maximum + 1) for i, maximum in enumerate(maxima)})),
+        "i": In(criteria_layout(maxima)),
         "num": Out(range(num_low, num_high + 1)),
         "den": Out(range(den_high + 1)),
     }

@@ -5,7 +5,8 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS, Config
-from softdepth.hdl.cost import COSTS, criteria_layout, fraction_layout
+from softdepth.hdl.cost import COSTS, fraction_layout
+from softdepth.hdl.criteria import criteria_layout
 from softdepth.hdl.criteria.sad import SadCriteria
 
 CRITERIA = {"sad": SadCriteria}
@@ -53,7 +54,7 @@ class Lane(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.cost = self._cost
-        values = Signal(criteria_layout(self._config))
+        values = Signal(criteria_layout(c.maximum for c in self._config.criteria))
         for kind, block in self._criteria.items():
             m.submodules[kind] = block
             m.d.comb += [

@@ -8,6 +8,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.config import CHANNEL_BITS, CHANNELS, Config, Sad
 from softdepth.hdl.box_sum import BoxSum
+from softdepth.hdl.criteria import criteria_layout
 from softdepth.hdl.criteria.column_sad import ColumnSad, column_maximum
 from softdepth.hdl.delay import Delay
 from softdepth.hdl.pipeline import Pipeline, Word, travelling
@@ -50,7 +51,7 @@ class SadCriteria(wiring.Component):
                 "place": In(range(config.places)),
                 "left": In(column),
                 "right": In(column),
-                "o": Out(data.StructLayout({f"s{i}": range(c.maximum + 1) for i, c in enumerate(criteria)})),
+                "o": Out(criteria_layout(c.maximum for c in criteria)),
             }
         )
 

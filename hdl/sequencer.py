@@ -90,12 +90,11 @@ class Sequencer(wiring.Component):
         ]
 
         # What happens in this clock.
-        busy = Signal()
+        busy = Signal()  # a pixel's step follows, known a clock before
         emits = Signal()
         waits = Signal()
         drains = Signal()
         m.d.comb += [
-            busy.eq(self.valid & ~self.last),
             emits.eq(own | draining),
             waits.eq((draining & (starts | ends)) | (emits & ~self.credit)),
             self.load.eq(self.i.valid & ~item.end & ~busy & ~waits),
@@ -185,7 +184,11 @@ class Sequencer(wiring.Component):
                     out_width.eq(Mux(item.end, width, item.x)),
                 ]
 
-        m.d.sync += [self.valid.eq(self.load | busy), drain.eq(drains)]
+        m.d.sync += [
+            self.valid.eq(self.load | busy),
+            busy.eq(Mux(busy, self.step != config.steps - 2, self.load & (config.steps > 1))),
+            drain.eq(drains),
+        ]
         with m.If(busy):
             m.d.sync += self.step.eq(self.step + 1)
         with m.Else():
@@ -193,7 +196,7 @@ class Sequencer(wiring.Component):
         m.d.comb += [
             self.first.eq(self.step == 0),
             self.last.eq(self.step == config.steps - 1),
-            self.emit.eq(drain | (self.valid & self.last & emit)),
+            self.emit.eq(drain | (self.valid & ~busy & emit)),
             self.tags.eq(tags),
         ]
         return m

@@ -16,7 +16,9 @@ def utilization(
     row: Annotated[
         list[str] | None,
         typer.Option(
-            "--row", metavar="PRESET/OPERATOR/LANES", help="Measure this row; repeatable [default: all]."
+            "--row",
+            metavar="PRESET/OPERATOR/LANES[@SEED]",
+            help="Measure this row, from a seed of its own if one is given; repeatable [default: all].",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="The rows of eight lanes with MEAN only.")] = False,
@@ -36,29 +38,34 @@ def utilization(
     """
     from softdepth.flow import utilization, utilization_page
 
-    rows = [_selection(text) for text in row or ()] or (
-        utilization_page.QUICK if quick else utilization_page.RECOMMENDED
-    )
-    configs = [each.config(disparities, width) for each in rows]  # all are sound before the first is built
+    usual = utilization_page.QUICK if quick else utilization_page.RECOMMENDED
+    rows = [_selection(text, seed) for text in row or ()] or [(each, seed) for each in usual]
+    configs = [each.config(disparities, width) for each, _ in rows]  # all are sound before the first is built
     if not output.is_dir():
         raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
     found = []
-    for number, (each, config) in enumerate(zip(rows, configs, strict=True), start=1):
+    for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
         screen.note(f"row {number} of {len(rows)}: {each}")
-        found.append(utilization.measure(config, each.preset, seed=seed))
+        found.append(utilization.measure(config, each.preset, seed=its_seed))
     utilization_page.write(output, found)
     print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
 
 
-def _selection(text: str) -> "Selection":
+def _selection(text: str, seed: int) -> tuple["Selection", int]:
+    """What a row names, and its seed: that of all unless it has its own."""
     from pydantic import ValidationError
 
     from softdepth.flow.utilization import Selection
 
     names = ("preset", "operator", "lanes")
+    what, at, own = text.partition("@")
     try:
-        return Selection.model_validate(dict(zip(names, text.split("/"), strict=True)))
+        selection = Selection.model_validate(dict(zip(names, what.split("/"), strict=True)))
+        if at and not own.isdecimal():
+            raise ValueError(f"'{own}' is no seed")
     except (ValueError, ValidationError) as error:
         raise InputError(
-            f"--row '{text}' is not PRESET/OPERATOR/LANES", "write for example --row paper/mean/16"
+            f"--row '{text}' is not PRESET/OPERATOR/LANES or PRESET/OPERATOR/LANES@SEED",
+            "write for example --row paper/mean/16",
         ) from error
+    return selection, int(own) if at else seed

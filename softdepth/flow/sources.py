@@ -9,7 +9,17 @@ PACKAGE = Path(__file__).resolve().parents[1]
 HDL = Path(next(iter(softdepth.hdl.__path__)))
 PROJECT = PACKAGE.parent
 
-FILES = ("config.py", "criteria.py", "presets.py", "rules.py", "soft.py", "boards.py", "protocol.py", "flow")
+FILES = (
+    "config.py",
+    "criteria.py",
+    "presets.py",
+    "rules.py",
+    "settings.py",
+    "soft.py",
+    "boards.py",
+    "protocol.py",
+    "flow",
+)
 
 
 def sources_hash(*further: Path) -> str:

@@ -56,7 +56,7 @@ def modes(row: Row) -> list[str]:
 def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
     """The figures as a Markdown page."""
     detailed = next((m for m in measurements if _name(m.row) == DETAILED), measurements[0])
-    first = measurements[0]
+    wrappers = sorted({(m.wrapper_lut4, m.wrapper_ff) for m in measurements})
     lines = [
         "# Area and speed",
         "",
@@ -64,16 +64,17 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         " [utilization.json](utilization.json). One row again: `softdepth utilization --row paper/mean/8`.",
         "",
         f"{PART.device}, {PART.package}, speed grade {PART.speed}: synthesised, placed and routed;"
-        f" {', '.join(f'{name}: {text}' for name, text in tools.items())}; nextpnr's seed {first.seed},"
-        f" aiming at {AIM_MHZ:g} MHz. Figures are nextpnr's own. LUT4 counts a carry cell as two and"
+        f" {', '.join(f'{name}: {text}' for name, text in tools.items())}; aiming at"
+        f" {AIM_MHZ:g} MHz. Figures are nextpnr's own. LUT4 counts a carry cell as two and"
         " distributed RAM as what it takes; DSP are multipliers of 18x18 bits, EBR block RAMs of 18 kbit."
         " The core stands between shift registers, which are in the figures:"
-        f" {first.wrapper_lut4} LUT4 and {first.wrapper_ff} flip-flops.",
+        + ", or".join(f" {lut4} LUT4 and {ff} flip-flops" for lut4, ff in wrappers)
+        + ".",
         "",
         "| preset | operator | disparities | lanes | width | LUT4 | FF | EBR | DSP | fmax, MHz | clocks/pixel"
-        " | Mpixel/s | MDE/s | MDE/s per kLUT | LUT4 per lane |",
-        "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        *(_table_row(found.row) for found in measurements),
+        " | Mpixel/s | MDE/s | MDE/s per kLUT | LUT4 per lane | seed |",
+        "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
+        *(f"{_table_row(found.row)} {found.seed} |" for found in measurements),
         "",
         "MDE/s: million disparity evaluations a second. LUT4 per lane: all of the core, divided by the lanes."
         " The preset sad has no fuzzy stage, so that its operator changes nothing.",

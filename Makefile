@@ -42,7 +42,7 @@ paper: $(READY) ## the paper's tables and pictures: out/paper, docs/paper.md
 	@$(BIN)/softdepth paper -o out/paper --document docs/paper.md
 
 compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
-	@for method in "paper mean" "paper min" "lite mean"; do set -- $$method; \
+	@for method in "paper mean" "paper min" "compact mean" "lite mean"; do set -- $$method; \
 		for pair in teddy cones venus; do \
 			$(BIN)/softdepth compare --dataset middlebury:$$pair --preset $$1 --operator $$2 \
 				-o out/compare/$$pair-$$1-$$2 || exit; \

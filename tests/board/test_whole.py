@@ -57,7 +57,7 @@ def test_a_clean_line(config, compute, tmp_path):
     [
         ({"flip": 0.001, "lead": [0x7D, 0x42, 0x7D]}, {"flip": 0.003}),
         ({"drop": 0.0005, "flip": 0.0005}, {"drop": 0.002}),
-        ({"truncate": 0.1, "double": 0.1}, {"truncate": 0.1, "double": 0.1}),
+        ({"truncate": 0.25, "double": 0.1}, {"truncate": 0.1, "double": 0.1}),
     ],
     ids=["flipped", "dropped", "truncated-and-doubled"],
 )

@@ -114,5 +114,6 @@ def test_the_area_is_that_of_the_design_as_it_was(tmp_path):
     apart = taken(synthesise(design, "ecp5", tmp_path))
     together = taken(core_netlist(config))
     assert together["ebr"] == apart["ebr"]
-    for resource in ("lut4", "ff"):
-        assert together[resource] == pytest.approx(apart[resource], rel=0.06), resource
+    # Registers on the way to every lane are alike. Apart, yosys makes one of them for all lanes.
+    for resource, tolerance in (("lut4", 0.06), ("ff", 0.1)):
+        assert together[resource] == pytest.approx(apart[resource], rel=tolerance), resource

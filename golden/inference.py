@@ -83,12 +83,15 @@ def live_labels(memberships: Memberships, firing: Firing) -> tuple[Mask, Mask, M
 def _strongest(strengths: Iterable[tuple[Array, Mask]]) -> Array:
     """The maximum over the strengths that count, and 0 where none does."""
     strongest: Array | None = None
+    some_miss = False
     for strength, counts in strengths:
         if not np.all(counts):
             strength = np.where(counts, strength, _lowest(strength))
+            some_miss = True
         strongest = strength if strongest is None else np.maximum(strongest, strength, out=strongest)
     assert strongest is not None  # every conclusion has a rule
-    strongest[strongest == _lowest(strongest)] = 0
+    if some_miss:
+        strongest[strongest == _lowest(strongest)] = 0
     return strongest
 
 

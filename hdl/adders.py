@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from amaranth.hdl import Cat, Const, Shape, Value
 
 from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.wires import constant, flag, wire
 
 CHAIN_BITS = 40
 """Longest carry chain that sums are joined into."""
@@ -52,6 +53,23 @@ def add_with_carry(pipeline: Pipeline, a: Word, b: Word, carry: Word, minimum: i
     total = (Cat(carry.value, _extended(a.value, bits)) + Cat(carry.value, _extended(b.value, bits)))[1:]
     value = total[:bits].as_signed() if minimum < 0 else total[:bits]
     return pipeline.result(value, minimum, maximum, a.time)
+
+
+def magnitude(
+    pipeline: Pipeline, word: Word, negative: Word, bits: int, maximum: int, *, less_1: bool = True
+) -> Word:
+    """``|word + 1|``, or ``|word|`` if it is not one `less_1`, from its low bits and its sign. One operation.
+
+    The complement of a negative word is its magnitude less 1, which comes in as a carry: of the negative
+    ones, or of the others where the word itself is one less.
+    """
+
+    def fold(value: Value, sign: Value) -> Value:
+        return value[:bits] ^ sign.replicate(bits)
+
+    folded = wire(pipeline, fold, word, negative, minimum=0, maximum=2**bits - 1)
+    carry = flag(pipeline, lambda sign: ~sign if less_1 else sign, negative)
+    return add_with_carry(pipeline, folded, constant(0, folded), carry, 0, maximum)
 
 
 def _chain(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:

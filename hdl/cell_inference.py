@@ -6,11 +6,11 @@ from amaranth.lib import wiring
 from softdepth.config import Config
 from softdepth.hdl.adders import Field, add_fields, add_with_carry
 from softdepth.hdl.cell_rules import joins_corners
-from softdepth.hdl.inference import inference_ports
+from softdepth.hdl.inference import inference_ports, position
 from softdepth.hdl.operators import CELL_OPERATORS
-from softdepth.hdl.operators.cell import Position, constant
+from softdepth.hdl.operators.cell import Position
 from softdepth.hdl.pipeline import Pipeline, Word, clocks, start
-from softdepth.hdl.wires import choose, flag, inverted, masked
+from softdepth.hdl.wires import choose, constant, flag, inverted, masked
 
 SUM_OPERATIONS = 5
 """Operations in a row from the firing strengths to the numerator."""
@@ -96,16 +96,17 @@ class CellInference(wiring.Component):
 
     def _upper(self, pipe: Pipeline, i: int) -> tuple[Word, Word]:
         """A criterion's membership in the upper of its two labels, and whether it is above T."""
-        fraction, above, limited = self._parts(i)
+        fraction, above, limited = position(self._config, self.i, i)
         upper = Cat(Mux(limited, 0, fraction), limited)
         return (
             pipe.result(upper, 0, self._config.one, self._start),
-            pipe.result(above, 0, 1, self._start),
+            pipe.result(above | limited, 0, 1, self._start),
         )
 
     def _position(self, pipe: Pipeline) -> tuple[Position, Word]:
         """Criterion 1's memberships in its outer label and the middle one, and whether it is above T."""
-        fraction, above, limited = self._parts(0)
+        fraction, above, limited = position(self._config, self.i, 0)
+        above = above | limited
         fraction = fraction | limited.replicate(len(fraction))
         none = pipe.input(Const(0, len(fraction)), 0, time=self._start)
 
@@ -117,15 +118,3 @@ class CellInference(wiring.Component):
         outer = membership(fraction ^ ~inverse, ~above | limited)
         middle = membership(fraction ^ inverse, above & ~limited)
         return Position(outer, middle), pipe.result(above, 0, 1, self._start)
-
-    def _parts(self, i: int) -> tuple[Value, Value, Value]:
-        """A criterion's place between two labels, whether it is above T, and whether it is beyond 2T."""
-        label_bits = self._config.criteria[i].label_bits
-        value = self.i[f"s{i}"]
-        value = Cat(value, Const(0, max(0, label_bits + 2 - len(value))))  # it may never reach T
-        limited = value[label_bits + 1 :].any()
-        return (
-            value[label_bits - self._config.membership_bits : label_bits],
-            value[label_bits] | limited,
-            limited,
-        )

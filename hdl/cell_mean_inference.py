@@ -4,7 +4,7 @@ from amaranth.hdl import Cat, Const, Module, Mux, Value
 from amaranth.lib import wiring
 
 from softdepth.config import Config
-from softdepth.hdl.inference import inference_ports
+from softdepth.hdl.inference import inference_ports, position
 from softdepth.hdl.pipeline import Pipeline, Word, clocks, start
 from softdepth.hdl.wires import choose, flag, wire
 
@@ -83,12 +83,12 @@ class CellMeanInference(wiring.Component):
         def word(value: Value, maximum: int) -> Word:
             return Word(value, 0, maximum, time + 1)
 
-        (a, a_top), (b, b_top), (c, c_top) = (self._position(i) for i in range(3))
-        a_upper = a[-1] | a_top
-        b_differs, c_differs = (stored(a_upper ^ (v[-1] | top)) for v, top in ((b, b_top), (c, c_top)))
-        a = stored(Mux(a_top, one, a))
+        (a, a_beyond, a_top), *others = (position(self._config, self.i, i) for i in range(3))
+        a_upper = a_beyond | a_top
+        b_differs, c_differs = (stored(a_upper ^ (beyond | top)) for _, beyond, top in others)
+        (low_b, b_top), (low_c, c_top) = ((stored(Mux(top, 0, v)), top) for v, _, top in others)
+        a = stored(Mux(a_top, one, Cat(a, a_beyond)))
         upper = a[-1]
-        low_b, low_c = (stored(Mux(top, 0, v[:-1])) for v, top in ((b, b_top), (c, c_top)))
         return (
             [
                 word(Cat(a[:bits], _count(b_differs, c_differs, upper, stored(a_top))), 6 * one),
@@ -97,14 +97,6 @@ class CellMeanInference(wiring.Component):
             ],
             [word(upper, 1), word(b_differs, 1), word(c_differs, 1)],
         )
-
-    def _position(self, i: int) -> tuple[Value, Value]:
-        """A criterion below 2T in units of 1 / one, and whether it reaches 2T."""
-        label_bits = self._config.criteria[i].label_bits
-        value = self.i[f"s{i}"]
-        value = Cat(value, Const(0, max(0, label_bits + 1 - len(value))))  # it may never reach T
-        shift = label_bits - self._config.membership_bits
-        return value[shift : label_bits + 1], value[label_bits + 1 :].any()
 
     def _first_and_z(self, pipe: Pipeline, a: Word, x: Word, d: Word, thrice: Word) -> tuple[Word, Word]:
         """``A + p + X``, and `d` or its triple without the sign, which is that of `d`: side by side.

@@ -33,7 +33,7 @@ class StereoCore(wiring.Component):
         i > frame guard > queue > sequencer > line buffer > right columns > lanes > argmin > results > o
 
     Throughput is one result every `Config.steps` clocks, without a pause between lines or frames.
-    The pipeline itself never stalls: a pixel is admitted when its result has a place in the result
+    The pipeline itself never stalls: a pixel is admitted when a result has a place in the result
     FIFO, so back-pressure reaches the input and no further. The result of (x, y) follows the pixel
     at (x + reach_right, y + reach_rows), of which it is the last to need, by `latency` clocks;
     results of a frame's last rows follow by themselves.
@@ -86,7 +86,9 @@ class StereoCore(wiring.Component):
 
         # Bits that say what happens are reset; what they speak of is not. Both start at clock 1.
         occurs: dict[str, list[Signal]] = {}
-        for name, source in {"valid": sequencer.valid, "emit": sequencer.emit}.items():
+        first = Signal()
+        m.d.comb += first.eq(sequencer.valid & sequencer.first)
+        for name, source in {"valid": sequencer.valid, "first": first, "emit": sequencer.emit}.items():
             occurs[name] = [source, *travelling(m, source, self._result_time - 1, name, since=1)]
         step = control.input(sequencer.step, config.steps - 1, time=1)
         first_of_line = control.input(sequencer.first_of_line, 1, time=1)
@@ -107,7 +109,7 @@ class StereoCore(wiring.Component):
         m.submodules.right = columns = RightColumns(config, column)
         m.d.comb += [
             columns.valid.eq(occurs["valid"][self._column_time]),
-            columns.first.eq(control.at(step, self._column_time).value == 0),
+            columns.first.eq(occurs["first"][self._column_time]),
             columns.column.eq(right),
         ]
 
@@ -117,7 +119,7 @@ class StereoCore(wiring.Component):
         with m.If(occurs["valid"][looked_up - 1]):
             m.d.sync += place.eq(place + 1)
             begins = control.at(first_of_line, looked_up - 1).value
-            with m.If(begins & (control.at(step, looked_up - 1).value == 0)):
+            with m.If(begins & occurs["first"][looked_up - 1]):
                 m.d.sync += place.eq(0)
 
         m.submodules.tree = self._tree
@@ -126,7 +128,7 @@ class StereoCore(wiring.Component):
         judged = self._cost_time - Exclusion.latency
         m.d.comb += [
             exclusion.valid.eq(occurs["valid"][judged]),
-            exclusion.first.eq(control.at(step, judged).value == 0),
+            exclusion.first.eq(occurs["first"][judged]),
             exclusion.starts.eq(control.at(first_inner, judged).value),
         ]
         for k, lane in enumerate(self._lanes):
@@ -190,5 +192,4 @@ class StereoCore(wiring.Component):
         credits_left = Signal(range(self.fifo_depth + 1), init=self.fifo_depth)
         returned = self.o.valid & self.o.ready
         m.d.sync += credits_left.eq(credits_left - sequencer.issued + returned)
-        # Two before this clock are one in it, at least.
-        m.d.sync += sequencer.credit.eq(credits_left > 1)
+        m.d.comb += sequencer.credit.eq(credits_left > 1)  # one in the next clock, at least

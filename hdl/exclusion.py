@@ -17,7 +17,8 @@ class Exclusion(wiring.Component):
 
     Members
     -------
-    valid, first : a step is taken, and it is its pixel's first.
+    valid : a step is taken.
+    first : it is its pixel's first; never without ``valid``.
     starts : the pixel is its line's first inner one.
     lanes : a bit a lane, `latency` clocks after the step. Before a line's first inner pixel they say
         nothing.
@@ -44,7 +45,7 @@ class Exclusion(wiring.Component):
         left = Signal(range(steps), reset_less=True)  # steps until that segment's candidate has room
         now = Signal.like(room)
         m.d.comb += now.eq(room)
-        with m.If(self.valid & self.first):
+        with m.If(self.first):
             with m.If(self.starts):
                 m.d.comb += now.eq(0)
                 m.d.sync += outside.eq(-2)

@@ -1,7 +1,7 @@
 """Fuzzy inference: from the criteria of a candidate to its cost as a fraction."""
 
-from amaranth.hdl import Module
-from amaranth.lib import wiring
+from amaranth.hdl import Cat, Const, Module, Value
+from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
@@ -19,6 +19,16 @@ def inference_ports(config: Config, maxima: list[int]) -> dict[str, wiring.Membe
         "num": Out(range(num_low, num_high + 1)),
         "den": Out(range(den_high + 1)),
     }
+
+
+def position(config: Config, criteria: data.View, i: int) -> tuple[Value, Value, Value]:
+    """Where a criterion lies: how far above the lower of two labels, in units of ``1 / one``; whether that is
+    T; and whether it reaches 2T, where the other two mean nothing."""
+    label_bits = config.criteria[i].label_bits
+    value = Value.cast(criteria[f"s{i}"])
+    value = Cat(value, Const(0, max(0, label_bits + 1 - len(value))))  # it may never reach T
+    fraction = value[label_bits - config.membership_bits : label_bits]
+    return fraction, value[label_bits], value[label_bits + 1 :].any()
 
 
 class RuleInference(wiring.Component):

@@ -4,9 +4,9 @@ from amaranth.hdl import Cat, Const, Module, Mux
 from amaranth.lib import wiring
 
 from softdepth.config import Config
-from softdepth.hdl.adders import Field, add_fields, add_with_carry
-from softdepth.hdl.inference import inference_ports
-from softdepth.hdl.pipeline import Pipeline, Word, clocks, start
+from softdepth.hdl.adders import Field, add_fields, add_with_carry, magnitude
+from softdepth.hdl.inference import inference_ports, position
+from softdepth.hdl.pipeline import LEVELS, Pipeline, Word, clocks
 from softdepth.hdl.wires import choose, flag, inverted, inverted_if, masked, wire
 
 OPERATIONS = 9
@@ -53,15 +53,8 @@ class MeanInference(wiring.Component):
         complement = wire(pipe, lambda v: ~v, y, minimum=0, maximum=2 * one - 1)
         above, t = add_fields(pipe, [Field(x, complement), Field(x, y)])
         x_larger = flag(pipe, lambda v: v[bits + 1], above)
-        short = wire(
-            pipe,
-            lambda v, larger: v[: bits + 1] ^ ~larger.replicate(bits + 1),
-            above,
-            x_larger,
-            minimum=0,
-            maximum=one,
-        )
-        d = add_with_carry(pipe, short, zero(short), x_larger, 0, one)
+        x_smaller = flag(pipe, lambda v: ~v, x_larger)
+        d = magnitude(pipe, above, x_smaller, bits + 1, one)
         n = choose(pipe, x_larger, y, x)
         larger = choose(pipe, x_larger, x, y)
         same = flag(pipe, lambda a, b: a == b, x_below, y_below)
@@ -125,9 +118,9 @@ class MeanInference(wiring.Component):
         )
         num = pipe.within(pipe.subtract(num, p_2r), *self._config.cost_range[0])
 
-        ready = start(OPERATIONS) + OPERATIONS
-        assert num.time == ready
-        m.d.comb += [self.num.eq(num.value), self.den.eq(pipe.at(den, ready).value)]
+        assert num.time == OPERATIONS
+        ready = self.latency * LEVELS
+        m.d.comb += [self.num.eq(pipe.at(num, ready).value), self.den.eq(pipe.at(den, ready).value)]
         return m
 
     def _distances(self, pipe: Pipeline) -> tuple[list[Word], list[Word]]:
@@ -135,24 +128,15 @@ class MeanInference(wiring.Component):
         bits = self._config.membership_bits
         fields, below = [], []
         for i in (1, 2, 0):
-            label_bits = self._config.criteria[i].label_bits
-            value = self.i[f"s{i}"]
-            value = Cat(value, Const(0, max(0, label_bits + 1 - len(value))))  # it may never reach T
-            limited = value[label_bits + 1 :].any()
-            low = ~value[label_bits] & ~limited
-            fraction = value[label_bits - bits : label_bits] | limited.replicate(bits)
-            time = start(OPERATIONS)
+            fraction, above, limited = position(self._config, self.i, i)
+            low = ~above & ~limited
+            fraction = fraction | limited.replicate(bits)
             fields.append(
                 Field(
-                    pipe.input(fraction ^ low.replicate(bits), self._config.one - 1, time=time),
-                    pipe.input(Const(0, bits), 0, time=time),
-                    pipe.input(low | limited, 1, time=time),
+                    pipe.input(fraction ^ low.replicate(bits), self._config.one - 1),
+                    pipe.input(Const(0, bits), 0),
+                    pipe.input(low | limited, 1),
                 )
             )
-            below.append(pipe.input(low, 1, time=time))
+            below.append(pipe.input(low, 1))
         return add_fields(pipe, fields), below
-
-
-def zero(word: Word) -> Word:
-    """0, as wide and as late as ``word``."""
-    return Word(Const(0, len(word.value)), 0, 0, word.time)

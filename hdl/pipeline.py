@@ -92,12 +92,6 @@ class Pipeline:
         larger = Mux(a.value > b.value, a.value, b.value)
         return self.result(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time)
 
-    def min(self, a: Word, b: Word) -> Word:
-        """The smaller of two words."""
-        a, b = self.aligned(a, b)
-        smaller = Mux(a.value < b.value, a.value, b.value)
-        return self.result(smaller, min(a.minimum, b.minimum), min(a.maximum, b.maximum), a.time)
-
     def subtract(self, a: Word, b: Word) -> Word:
         """``a - b``."""
         a, b = self.aligned(a, b)

@@ -23,7 +23,8 @@ class RightColumns(wiring.Component):
 
     Members
     -------
-    valid, first : a step is taken, and it is the pixel's first.
+    valid : a step is taken.
+    first : it is the pixel's first; never without ``valid``.
     column : the pixel's own right column, held through its steps.
     columns : one column a lane, in the same clock.
     """
@@ -49,14 +50,14 @@ class RightColumns(wiring.Component):
             m.submodules[f"wait_{lane}"] = wait = Delay(self._column, 1)
             m.d.comb += [
                 current.eq(ring.o),
-                wait.en.eq(self.valid & self.first),
+                wait.en.eq(self.first),
                 wait.i.eq(current),
                 self.columns[lane].eq(current),
             ]
             if (
                 self._config.steps <= 2
             ):  # nothing to turn: a wire, or one place that takes a column or holds it
-                m.d.comb += [ring.en.eq(self.valid & self.first), ring.i.eq(entering)]
+                m.d.comb += [ring.en.eq(self.first), ring.i.eq(entering)]
             else:
                 m.d.comb += [ring.en.eq(self.valid), ring.i.eq(Mux(self.first, entering, current))]
             entering = wait.o

@@ -25,7 +25,7 @@ class Sequencer(wiring.Component):
     Members
     -------
     i : items of well-formed frames.
-    credit : there is room for another result at the far end of the pipeline.
+    credit : in the next clock there is room for another result at the far end of the pipeline.
     load : the pixel in ``i`` begins; its ``x`` and colours are valid in this clock only.
     valid, first, last, step : a step is taken; registered, one clock after ``load``.
     first_of_line : the step's pixel is its line's first.
@@ -91,15 +91,15 @@ class Sequencer(wiring.Component):
 
         # What happens in this clock.
         busy = Signal()  # a pixel's step follows, known a clock before
+        held = Signal()  # so is this: that, or no credit
         emits = Signal()
-        waits = Signal()
         drains = Signal()
         m.d.comb += [
             emits.eq(own | draining),
-            waits.eq((draining & (starts | ends)) | (emits & ~self.credit)),
-            self.load.eq(self.i.valid & ~item.end & ~busy & ~waits),
-            self.i.ready.eq(Mux(item.end, ~draining, ~busy & ~waits)),
-            drains.eq(draining & ~busy & ~self.load & self.credit),
+            # Whether or not a result leaves with the pixel: the queue waits for this, so that little decides.
+            self.i.ready.eq(~held & ~(draining & (starts | ends))),
+            self.load.eq(self.i.valid & self.i.ready & ~item.end),
+            drains.eq(draining & ~held & ~self.load),
             self.issued.eq(drains | (self.load & emits)),
         ]
 
@@ -184,9 +184,12 @@ class Sequencer(wiring.Component):
                     out_width.eq(Mux(item.end, width, item.x)),
                 ]
 
+        more = Signal()
+        m.d.comb += more.eq(Mux(busy, self.step != config.steps - 2, self.load & (config.steps > 1)))
         m.d.sync += [
             self.valid.eq(self.load | busy),
-            busy.eq(Mux(busy, self.step != config.steps - 2, self.load & (config.steps > 1))),
+            busy.eq(more),
+            held.eq(more | ~self.credit),
             drain.eq(drains),
         ]
         with m.If(busy):

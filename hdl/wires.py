@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from amaranth.hdl import Cat, Mux, Value
+from amaranth.hdl import Cat, Const, Mux, Shape, Value
 
 from softdepth.hdl.pipeline import Pipeline, Word
 
@@ -13,6 +13,11 @@ def wire(
     """A function of words, and the range of its value."""
     words = pipeline.aligned(*words)
     return Word(function(*(word.value for word in words)), minimum, maximum, words[0].time)
+
+
+def constant(value: int, beside: Word) -> Word:
+    """A constant of the time of a word."""
+    return Word(Const(value, Shape.cast(range(min(value, 0), max(value, 1) + 1))), value, value, beside.time)
 
 
 def flag(pipeline: Pipeline, function: Callable[..., Value], *words: Word) -> Word:

@@ -109,7 +109,7 @@ class Config(Settings):
         if self.max_width < self.min_width or self.max_height < self.min_height:
             raise ValueError(
                 f"max_width x max_height is {self.max_width} x {self.max_height}, smaller than the"
-                f" window support {self.min_width} x {self.min_height}"
+                f" smallest frame, {self.min_width} x {self.min_height}: raise them, or use smaller windows"
             )
         if self.compensation.reading != "off":
             if self.cost != "fuzzy":

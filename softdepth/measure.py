@@ -86,7 +86,7 @@ def check_fits(pair: "StereoPair", config: Config) -> None:
             raise InputError(f"{size}, but the core is built for {key} = {limit}", f"use --set {key}={have}")
     if pair.width < config.min_width or pair.height < config.min_height:
         raise InputError(
-            f"{size}, smaller than the window support {config.min_width}x{config.min_height}",
+            f"{size}, and the smallest frame is {config.min_width}x{config.min_height}",
             "give larger images, or smaller windows with --set",
         )
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from amaranth.hdl import Cat, Const, Shape, Value
+from amaranth.hdl import Cat, Const, Value
 
 from softdepth.hdl.pipeline import Pipeline, Word
 from softdepth.hdl.wires import choose, flag, inverted, wire
@@ -65,8 +65,3 @@ def excess(pipeline: Pipeline, a: Word, b: Word, one: int) -> Word:
     bits = one.bit_length() - 1
     less_one = wire(pipeline, lambda v: Cat(v[:bits], ~v[bits]).as_signed(), a, minimum=-one, maximum=0)
     return pipeline.add(less_one, b)
-
-
-def constant(value: int, beside: Word) -> Word:
-    """A constant of the time of a word."""
-    return Word(Const(value, Shape.cast(range(min(value, 0), max(value, 1) + 1))), value, value, beside.time)

@@ -4,8 +4,7 @@ from collections.abc import Sequence
 
 from amaranth.hdl import Array, Cat, Const, Mux, Shape
 
-from softdepth.hdl.adders import add_with_carry
-from softdepth.hdl.operators.cell import constant
+from softdepth.hdl.adders import magnitude
 from softdepth.hdl.pipeline import Pipeline, Word
 from softdepth.hdl.wires import flag, wire
 
@@ -40,18 +39,9 @@ class DistanceTable:
             values = [*range(size), *range(-size, 0)]
             low = wire(pipeline, lambda v: Cat(v[:bits], v[-1]), word, minimum=0, maximum=2 * size - 1)
             return self._select(pipeline, [abs(v + less_1) for v in values], low, far)
-        # The complement of a negative sum is its magnitude less 1.
-        folded = wire(
-            pipeline,
-            lambda v: v[:bits] ^ v[-1].replicate(bits),
-            word,
-            minimum=0,
-            maximum=size - 1,
-        )
-        carry = flag(pipeline, lambda n: ~n if less_1 else n, negative)
-        magnitude = add_with_carry(pipeline, folded, constant(0, folded), carry, 0, size)
-        far = flag(pipeline, lambda f, v: f | v[bits], far, magnitude)
-        low = wire(pipeline, lambda v: v[:bits], magnitude, minimum=0, maximum=size - 1)
+        distance = magnitude(pipeline, word, negative, bits, size, less_1=less_1)
+        far = flag(pipeline, lambda f, v: f | v[bits], far, distance)
+        low = wire(pipeline, lambda v: v[:bits], distance, minimum=0, maximum=size - 1)
         return self._select(pipeline, range(size), low, far)
 
     def _select(self, pipeline: Pipeline, magnitudes: Sequence[int], index: Word, far: Word) -> Word:

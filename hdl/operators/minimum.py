@@ -2,9 +2,9 @@
 
 from softdepth.config import Config
 from softdepth.hdl.adders import add_with_carry
-from softdepth.hdl.operators.cell import Corners, Position, complement, constant, excess, order
+from softdepth.hdl.operators.cell import Corners, Position, complement, excess, order
 from softdepth.hdl.pipeline import Pipeline, Word
-from softdepth.hdl.wires import choose, flag, inverted
+from softdepth.hdl.wires import choose, constant, flag, inverted
 
 
 class Minimum:

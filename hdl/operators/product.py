@@ -2,9 +2,9 @@
 
 from softdepth.config import Config
 from softdepth.hdl.adders import add_with_carry
-from softdepth.hdl.operators.cell import Corners, Position, complement, constant, order
+from softdepth.hdl.operators.cell import Corners, Position, complement, order
 from softdepth.hdl.pipeline import Pipeline, Word
-from softdepth.hdl.wires import flag, inverted, wire
+from softdepth.hdl.wires import constant, flag, inverted, wire
 
 
 class Product:

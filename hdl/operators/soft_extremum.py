@@ -2,10 +2,10 @@
 
 from softdepth.config import Config
 from softdepth.hdl.adders import add_with_carry
-from softdepth.hdl.operators.cell import Corners, Position, complement, constant, excess
+from softdepth.hdl.operators.cell import Corners, Position, complement, excess
 from softdepth.hdl.operators.distance_table import DistanceTable
 from softdepth.hdl.pipeline import Pipeline, Word
-from softdepth.hdl.wires import choose, flag, inverted, masked
+from softdepth.hdl.wires import choose, constant, flag, inverted, masked
 from softdepth.soft import soft_min_1_table, soft_min_2_table
 
 

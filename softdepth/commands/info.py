@@ -52,7 +52,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     return {
         "candidates": f"{config.disparities}, {config.lanes} per clock",
         "clocks per pixel": str(config.steps),
-        "window support": f"{config.min_width} x {config.min_height} pixels",
+        "smallest frame": f"{config.min_width} x {config.min_height} pixels",
         "disparity": f"{config.disparity_bits} bits",
         "input payload": f"{PixelPair.size} bits",
         "output payload": f"{result_layout(config).size} bits",

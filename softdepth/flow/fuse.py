@@ -5,13 +5,12 @@ inputs. Conditional negation and selection in front of an adder, as in ``a + (b 
 ``a + (s ? b : c)``, often fit into it: one LUT4 a bit less, and one level of logic.
 """
 
-from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
 from itertools import permutations, product
 from typing import Any
 
-from softdepth.flow.netlist import Bit, Netlist
+from softdepth.flow.netlist import Bit, Netlist, Nets
 
 PINS = "ABCD"
 MAX_PASSES = 4
@@ -30,18 +29,12 @@ class _Module:
     """One module of the netlist, indexed by who drives and who reads a net."""
 
     def __init__(self, module: dict[str, Any]) -> None:
-        self._cells: dict[str, dict[str, Any]] = module["cells"]
-        self._tables: dict[Bit, str] = {}
-        self._readers: dict[Bit, set[tuple[str, str]]] = defaultdict(set)
-        for name, cell in self._cells.items():
-            for port, bits in cell["connections"].items():
-                if cell["type"] == "LUT4" and port == "Z":
-                    self._tables[bits[0]] = name
-                elif cell["port_directions"][port] != "output":
-                    for bit in bits:
-                        if not isinstance(bit, str):
-                            self._readers[bit].add((name, port))
-        self._ports = {bit for port in module["ports"].values() for bit in port["bits"]}
+        self._nets = Nets(module)
+        self._tables: dict[Bit, str] = {
+            cell["connections"]["Z"][0]: name
+            for name, cell in self._nets.cells.items()
+            if cell["type"] == "LUT4"
+        }
 
     def fuse(self) -> int:
         removed = 0
@@ -54,38 +47,31 @@ class _Module:
 
     def _absorb(self, output: Bit) -> bool:
         """Move the table that drives ``output`` into all of its readers, or leave it."""
-        readers = self._readers[output]
-        if output in self._ports or not readers:
+        cells = self._nets.cells
+        readers = self._nets.readers[output]
+        if output in self._nets.exported or not readers:
             return False
         halves = {(name, port[-1]) for name, port in readers}
-        if any(self._cells[name]["type"] != "CCU2C" or port == "CIN" for name, port in readers):
+        if any(cells[name]["type"] != "CCU2C" or port == "CIN" for name, port in readers):
             return False
         name = self._tables[output]
-        table = self._cells[name]
+        table = cells[name]
         plans = []
         for cell, half in sorted(halves):
-            plan = _plan(self._cells[cell], half, output, table)
+            plan = _plan(cells[cell], half, output, table)
             if plan is None:
                 return False
             plans.append((cell, half, *plan))
         for cell, half, init, bits in plans:
             self._rewire(cell, half, init, bits)
-        del self._cells[name], self._tables[output]
-        for port, bits in table["connections"].items():
-            if port != "Z":
-                self._readers[bits[0]].discard((name, port))
+        del self._tables[output]
+        self._nets.remove(name)
         return True
 
     def _rewire(self, name: str, half: str, init: int, bits: list[Bit]) -> None:
-        cell = self._cells[name]
         for pin, bit in zip(PINS, bits, strict=True):
-            port = pin + half
-            old = cell["connections"][port][0]
-            self._readers[old].discard((name, port))
-            cell["connections"][port] = [bit]
-            if not isinstance(bit, str):
-                self._readers[bit].add((name, port))
-        cell["parameters"][f"INIT{half}"] = f"{init:016b}"
+            self._nets.move(name, pin + half, bit)
+        self._nets.cells[name]["parameters"][f"INIT{half}"] = f"{init:016b}"
 
 
 def _plan(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from softdepth.flow.netlist import Bit, Cell, Netlist, Nets
+from softdepth.flow.netlist import Bit, Netlist, Nets
 
 MULTIPLIER = "MULT18X18D"
 OPERANDS = [f"{operand}{k}" for operand in "AB" for k in range(18)]
@@ -31,7 +31,7 @@ def _operands(nets: Nets, name: str) -> int:
     pins = {pin: cell["connections"][pin][0] for pin in OPERANDS}
     found = {pin: nets.register_of(bit) for pin, bit in pins.items() if not isinstance(bit, str)}
     registers = [register for register in found.values() if register is not None]
-    control = _control(nets, registers)
+    control = nets.common_control(registers)
     if control is None or len(registers) < len(found):
         return 0
     _use(nets, name, ("INPUTA", "INPUTB"), *control)
@@ -47,30 +47,13 @@ def _operands(nets: Nets, name: str) -> int:
 
 def _product(nets: Nets, name: str) -> int:
     cell = nets.cells[name]
-    used = {pin: bit for pin in PRODUCT if nets.used(bit := cell["connections"][pin][0])}
-    found = {pin: nets.only_register(bit) for pin, bit in used.items()}
-    registers = [register for register in found.values() if register is not None]
-    control = _control(nets, registers)
-    if control is None or len(registers) < len(found):
-        return 0
-    if _is_clocked(cell) and control[0] != cell["connections"]["CLK0"][0]:
+    registers = nets.registers_behind(cell, PRODUCT)
+    control = nets.common_control(registers.values())
+    if control is None or cell["connections"].get("CLK0", [control[0]]) != [control[0]]:
         return 0
     _use(nets, name, ("OUTPUT",), *control)
-    for pin, register in found.items():
-        assert register is not None
-        cell["connections"][pin] = nets.cells[register]["connections"]["Q"]
-        nets.remove(register)
-    return len(found)
-
-
-def _control(nets: Nets, registers: Sequence[str]) -> tuple[Bit, Bit] | None:
-    """The clock and the clock enable of all of them, if they have the same."""
-    controls = {nets.control(name) for name in registers}
-    return controls.pop() if len(controls) == 1 else None
-
-
-def _is_clocked(cell: Cell) -> bool:
-    return "CLK0" in cell["connections"]
+    nets.take_in(cell, registers)
+    return len(registers)
 
 
 def _use(nets: Nets, name: str, registers: Sequence[str], clock: Bit, enable: Bit) -> None:

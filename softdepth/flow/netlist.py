@@ -1,6 +1,7 @@
 """A netlist as yosys writes it, and what passes over it need to know: who reads and who drives a net."""
 
 from collections import defaultdict
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 Netlist = dict[str, Any]
@@ -61,6 +62,29 @@ class Nets:
         enable = "1" if always else cell["connections"].get("CE", ["1"])[0]
         return cell["connections"]["CLK"][0], enable
 
+    def common_control(self, names: Iterable[str]) -> tuple[Bit, Bit] | None:
+        """The clock and the clock enable of flip-flops that have the same, if there are any."""
+        controls = {self.control(name) for name in names}
+        return controls.pop() if len(controls) == 1 else None
+
+    def registers_behind(self, cell: Cell, ports: Iterable[str]) -> dict[str, str]:
+        """The flip-flops that a cell's outputs go to, by port: those that are read, if all go to one only."""
+        found: dict[str, str] = {}
+        for port in ports:
+            bit, *_ = cell["connections"].get(port) or ["x"]
+            if self.used(bit):
+                name = self.only_register(bit)
+                if name is None:
+                    return {}
+                found[port] = name
+        return found
+
+    def take_in(self, cell: Cell, registers: Mapping[str, str]) -> None:
+        """Let a cell's outputs be those of the flip-flops behind them, which go."""
+        for port, name in registers.items():
+            cell["connections"][port] = self.cells[name]["connections"]["Q"]
+            self.remove(name)
+
     def move(self, name: str, port: str, bit: Bit) -> None:
         """Connect an input of a cell to another net."""
         cell = self.cells[name]
@@ -71,12 +95,12 @@ class Nets:
         self.readers[bit].add((name, port))
 
     def remove(self, name: str) -> None:
-        """Take a flip-flop away."""
-        cell = self.cells.pop(name)
-        for port, bits in cell["connections"].items():
+        """Take a cell away."""
+        for port, bits in self.cells.pop(name)["connections"].items():
             for bit in bits:
                 self.readers[bit].discard((name, port))
-        del self._flip_flops[cell["connections"]["Q"][0]]
+                if self._flip_flops.get(bit) == name:
+                    del self._flip_flops[bit]
 
 
 def _plain(flip_flop: Cell) -> bool:

@@ -24,25 +24,16 @@ def absorb_ram_registers(netlist: Netlist) -> int:
 
 
 def _absorb(nets: Nets, cell: Cell, side: str) -> int:
-    connections = cell["connections"]
-    registers = {
-        port: nets.only_register(bits[0])
-        for port in (f"DO{side}{k}" for k in range(OUTPUTS))
-        if (bits := connections.get(port)) and nets.used(bits[0])
-    }
-    names = [name for name in registers.values() if name is not None]
-    controls = {nets.control(name) for name in names}
-    if len(names) < len(registers) or len(controls) != 1 or cell["parameters"][f"REGMODE_{side}"] != "NOREG":
+    registers = nets.registers_behind(cell, (f"DO{side}{k}" for k in range(OUTPUTS)))
+    control = nets.common_control(registers.values())
+    if control is None or cell["parameters"][f"REGMODE_{side}"] != "NOREG":
         return 0
-    ((clock, enable),) = controls
-    if [clock] != connections[f"CLK{side}"]:
+    clock, enable = control
+    if [clock] != cell["connections"][f"CLK{side}"]:
         return 0
     cell["parameters"][f"REGMODE_{side}"] = "OUTREG"
-    connections[f"OCE{side}"] = [enable]
-    for port, name in registers.items():
-        assert name is not None
-        connections[port] = nets.cells[name]["connections"]["Q"]
-        nets.remove(name)
+    cell["connections"][f"OCE{side}"] = [enable]
+    nets.take_in(cell, registers)
     return len(registers)
 
 

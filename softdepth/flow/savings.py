@@ -110,12 +110,11 @@ def operators() -> dict[Firing, dict[str, dict[str, int]]]:
 def operator_page(found: dict[Firing, dict[str, dict[str, int]]]) -> str:
     """The same as a table."""
     mean = found["all"]["mean"]["lut4"]
-    rows = (
-        f"| {operator} | {firing} | {lut4} | {lut4 / mean:.2f} | {lane['ff']} | {lane['dsp']} |"
-        for firing, lanes in found.items()
-        for operator, lane in lanes.items()
-        if (lut4 := lane["lut4"])
-    )
+    rows = []
+    for firing, lanes in found.items():
+        for operator, lane in lanes.items():
+            lut4, ff, dsp = (lane[name] for name in ("lut4", "ff", "dsp"))
+            rows.append(f"| {operator} | {firing} | {lut4} | {lut4 / mean:.2f} | {ff} | {dsp} |")
     heads = [
         "| operator | rules that fire | LUT4 | of MEAN's over all | FF | multipliers |",
         "|---|---|---:|---:|---:|---:|",

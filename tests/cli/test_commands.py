@@ -81,7 +81,7 @@ def test_info_derives_the_figures():
     assert found["clocks per pixel"] == "8"
     assert found["clocks per frame"] == f"{640 * 480 * 8} at 640x480"
     assert found["frames per second"] == "40.7 at 100 MHz"
-    assert found["window support"] == "7 x 7 pixels"
+    assert found["smallest frame"] == "7 x 7 pixels"
 
 
 @pytest.mark.parametrize("stored_rows", [0, 1, 4])

@@ -1,56 +1,22 @@
 """CellMeanInference: the closed form equals the corrected rules of the criteria's cell, one by one."""
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import product
 from random import Random
 from typing import Any
 
-import numpy as np
 import pytest
-from amaranth.hdl import Module
-from amaranth.lib import wiring
-from amaranth.lib.wiring import In, Out
 
 from softdepth.config import LITERAL_INPUT, Config
-from softdepth.golden import fixed_model
 from softdepth.hdl.cell_mean_inference import CellMeanInference
-from softdepth.hdl.cost import fraction_layout
 from softdepth.rules import CORRECTED, PRINTED, RuleBase, weight
 
-from .support import config, observe, piped, sad
+from .inferences import Values, around_the_labels, gateware, model, positions, stimulus
+from .inferences import settings as any_settings
+from .support import observe
 
-Values = tuple[int, ...]
-
-
-class Inference(wiring.Component):
-    """The inference, with one output for both terms."""
-
-    def __init__(self, c: Config, maxima: list[int]) -> None:
-        self.inner = CellMeanInference(c, maxima)
-        self.latency = self.inner.latency
-        super().__init__({"i": In(self.inner.i.shape()), "o": Out(fraction_layout(c))})
-
-    def elaborate(self, platform: object) -> Module:
-        m = Module()
-        m.submodules.inner = self.inner
-        m.d.comb += [
-            self.inner.i.eq(self.i),
-            self.o.num.eq(self.inner.num),
-            self.o.den.eq(self.inner.den),
-        ]
-        return m
-
-
-def settings(bits: int, *label_bits: int, windows: Sequence[int] = (3, 3, 3)) -> Config:
-    return config(
-        disparities=2,
-        lanes=1,
-        operator="mean",
-        rules="corrected",
-        firing="cell",
-        membership_bits=bits,
-        criteria=[sad(w, 0, label) for w, label in zip(windows, label_bits, strict=True)],
-    )
+settings = partial(any_settings, operator="mean", rules="corrected", firing="cell")
 
 
 def fraction(c: Config, values: Values, rules: RuleBase = CORRECTED) -> tuple[int, int]:
@@ -73,45 +39,8 @@ def fraction(c: Config, values: Values, rules: RuleBase = CORRECTED) -> tuple[in
     return num, den
 
 
-def positions(c: Config, i: int, maximum: int) -> list[int]:
-    """Every membership position of a criterion, once or from both ends of its range, and beyond 2T."""
-    criterion = c.criteria[i]
-    unit = 1 << (criterion.label_bits - c.membership_bits)
-    top = 2 << criterion.label_bits
-    found = {u * unit + (unit - 1) * (u % 2) for u in range(2 * c.one + 1)}
-    found |= {top // 2 - 1, top // 2, top - 1, top, top + 1, top + top // 2 + unit, 2 * top, maximum}
-    return sorted(v for v in found if v <= maximum)
-
-
-def around_the_labels(c: Config, i: int, random: Random) -> int:
-    """A value of any size, or near 0, T / 2, T, 3T / 2 or 2T."""
-    criterion = c.criteria[i]
-    half = 1 << criterion.label_bits >> 1
-    unit = 1 << (criterion.label_bits - c.membership_bits)
-    value = random.choice(
-        (
-            random.randint(0, criterion.maximum),
-            random.randrange(4 * half),
-            random.randrange(5) * half + random.randint(-2, 2) * unit + random.randint(-1, 1),
-        )
-    )
-    return min(max(value, 0), criterion.maximum)
-
-
-def gateware(c: Config, sets: Sequence[Values], maxima: list[int] | None = None) -> list[tuple[int, int]]:
-    dut = Inference(c, maxima or [criterion.maximum for criterion in c.criteria])
-    got = piped(dut, [{"i": {f"s{i}": v for i, v in enumerate(values)}} for values in sets])
-    return [(o.num, o.den) for o in got]
-
-
-def model(c: Config, sets: Sequence[Values]) -> list[tuple[int, int]]:
-    columns = [np.array(column, np.int32) for column in zip(*sets, strict=True)]
-    num, den = fixed_model.fraction(c, 0, columns)
-    return list(zip(num.tolist(), den.tolist(), strict=True))
-
-
 def differing(c: Config, sets: Sequence[Values], maxima: list[int] | None = None) -> list[Any]:
-    got = gateware(c, sets, maxima)
+    got = gateware(CellMeanInference, c, sets, maxima)
     wanted = [fraction(c, values) for values in sets]
     return [entry for entry in zip(sets, got, wanted, strict=True) if entry[1] != entry[2]]
 
@@ -173,7 +102,7 @@ def test_equals_the_fixed_model(bits: int) -> None:
     c = settings(bits, 9, 9, 10, windows=(3, 5, 5))
     random = Random(bits)
     sets = [tuple(around_the_labels(c, i, random) for i in range(3)) for _ in range(1000)]
-    assert gateware(c, sets) == model(c, sets)
+    assert gateware(CellMeanInference, c, sets) == model(c, sets)
 
 
 def test_the_answer_comes_after_the_stated_latency() -> None:
@@ -183,7 +112,7 @@ def test_the_answer_comes_after_the_stated_latency() -> None:
     for output, old, new in zip(("num", "den"), fraction(c, before), fraction(c, after), strict=True):
         dut = CellMeanInference(c, [64, 64, 64])
         clocks = [before] * (dut.latency + 2) + [after] * (dut.latency + 1)
-        seen = observe(dut, [{"i": {f"s{i}": v for i, v in enumerate(values)}} for values in clocks], output)
+        seen = observe(dut, stimulus(clocks), output)
         assert old != new
         assert seen[-dut.latency - 2 :] == [old] * (dut.latency + 1) + [new]
 

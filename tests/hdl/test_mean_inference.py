@@ -1,86 +1,17 @@
 """MeanInference: the closed form equals the fixed model's rules, for every position of the criteria."""
 
-from collections.abc import Iterable
 from itertools import product
 from random import Random
-from typing import Any
 
 import numpy as np
 import pytest
-from amaranth.hdl import Module
-from amaranth.lib import wiring
-from amaranth.lib.wiring import In, Out
 
 from softdepth.config import Config
 from softdepth.golden import fixed_model
-from softdepth.hdl.cost import fraction_layout
 from softdepth.hdl.inference import RuleInference
 from softdepth.hdl.mean_inference import MeanInference
 
-from .support import config, piped, sad
-
-Values = tuple[int, ...]
-
-
-class Inference(wiring.Component):
-    """Either inference, with one output for both terms."""
-
-    def __init__(self, c: Config, kind: type[MeanInference] | type[RuleInference], maxima: list[int]) -> None:
-        self.inner = kind(c, maxima)
-        self.latency = self.inner.latency
-        super().__init__({"i": In(self.inner.i.shape()), "o": Out(fraction_layout(c))})
-
-    def elaborate(self, platform: object) -> Module:
-        m = Module()
-        m.submodules.inner = self.inner
-        m.d.comb += [
-            self.inner.i.eq(self.i),
-            self.o.num.eq(self.inner.num),
-            self.o.den.eq(self.inner.den),
-        ]
-        return m
-
-
-def settings(bits: int, *label_bits: int, windows: tuple[int, ...] = (3, 3, 3)) -> Config:
-    criteria = [sad(w, 0, label) for w, label in zip(windows, label_bits, strict=True)]
-    return config(disparities=2, lanes=1, operator="mean", membership_bits=bits, criteria=criteria)
-
-
-def positions(c: Config, i: int) -> list[int]:
-    """Every membership position of a criterion, once or from both ends of its range, and beyond 2T."""
-    criterion = c.criteria[i]
-    unit = 1 << (criterion.label_bits - c.membership_bits)
-    top = 2 << criterion.label_bits
-    found = {u * unit + (unit - 1) * (u % 2) for u in range(2 * c.one + 1)}
-    found |= {top // 2 - 1, top // 2, top - 1, top, top + 1, 2 * top, criterion.maximum}
-    return sorted(v for v in found if v <= criterion.maximum)
-
-
-def around_the_labels(c: Config, i: int, random: Random) -> int:
-    """A value of any size, or near 0, T / 2, T, 3T / 2 or 2T, where the cases of the form meet."""
-    criterion = c.criteria[i]
-    half = 1 << criterion.label_bits >> 1
-    unit = 1 << (criterion.label_bits - c.membership_bits)
-    value = random.choice(
-        (
-            random.randint(0, criterion.maximum),
-            random.randrange(4 * half),
-            random.randrange(5) * half + random.randint(-2, 2) * unit + random.randint(-1, 1),
-        )
-    )
-    return min(max(value, 0), criterion.maximum)
-
-
-def gateware(c: Config, sets: Iterable[Values], kind: Any = MeanInference) -> list[tuple[int, int]]:
-    dut = Inference(c, kind, [criterion.maximum for criterion in c.criteria])
-    got = piped(dut, [{"i": {f"s{i}": v for i, v in enumerate(values)}} for values in sets])
-    return [(o.num, o.den) for o in got]
-
-
-def model(c: Config, sets: Iterable[Values]) -> list[tuple[int, int]]:
-    columns = [np.array(column, np.int32) for column in zip(*sets, strict=True)]
-    num, den = fixed_model.fraction(c, 0, columns)
-    return list(zip(num.tolist(), den.tolist(), strict=True))
+from .inferences import around_the_labels, gateware, model, positions, settings
 
 
 @pytest.mark.parametrize(
@@ -98,7 +29,7 @@ def model(c: Config, sets: Iterable[Values]) -> list[tuple[int, int]]:
 )
 def test_equals_the_fixed_model_at_every_position(c: Config) -> None:
     sets = list(product(*(positions(c, i) for i in range(3))))
-    assert gateware(c, sets) == model(c, sets)
+    assert gateware(MeanInference, c, sets) == model(c, sets)
 
 
 @pytest.mark.parametrize(
@@ -115,7 +46,7 @@ def test_equals_the_fixed_model_at_many_bits(bits: int, labels: tuple[int, ...])
             shift = c.criteria[a].label_bits - c.criteria[b].label_bits
             values[b] = min(values[a] >> max(shift, 0) << max(-shift, 0), c.criteria[b].maximum)
             sets.append(tuple(values))
-    assert gateware(c, sets) == model(c, sets)
+    assert gateware(MeanInference, c, sets) == model(c, sets)
 
 
 def test_equals_the_inference_over_all_rules() -> None:
@@ -123,7 +54,7 @@ def test_equals_the_inference_over_all_rules() -> None:
     c = settings(4, 6, 6, 6)
     random = Random(7)
     sets = [tuple(around_the_labels(c, i, random) for i in range(3)) for _ in range(800)]
-    assert gateware(c, sets) == gateware(c, sets, RuleInference)
+    assert gateware(MeanInference, c, sets) == gateware(RuleInference, c, sets)
 
 
 @pytest.mark.parametrize("bits", [2, 3, 4])

@@ -71,11 +71,6 @@ def test_max(a: Range, b: Range) -> None:
 
 
 @pytest.mark.parametrize(("a", "b"), RANGES)
-def test_min(a: Range, b: Range) -> None:
-    check([a, b], 1, lambda p, w: p.min(w[0], w[1]), min)
-
-
-@pytest.mark.parametrize(("a", "b"), RANGES)
 def test_subtract(a: Range, b: Range) -> None:
     check([a, b], 1, lambda p, w: p.subtract(w[0], w[1]), lambda x, y: x - y)
 

@@ -133,6 +133,10 @@ class FrameGuard(wiring.Component):
         padded_left = Signal(PIXEL_BITS, reset_less=True)
         padded_right = Signal(PIXEL_BITS, reset_less=True)
         eof_after_padding = Signal(reset_less=True)
+        # The line's last pixel. Pixels that are not taken are kept too, as one of the line follows before any
+        # padding: these registers lie far from the others, so that little may decide.
+        with m.If(self.i.valid & ~padding & ~(starts & in_frame)):
+            m.d.sync += [padded_left.eq(pair.left), padded_right.eq(pair.right)]
         skipping = Signal()
         dropping = Signal()
         pending_end = Signal()  # a line was cut whose tail held the end of the frame
@@ -259,8 +263,6 @@ class FrameGuard(wiring.Component):
                     dropping.eq(0),
                     skipping.eq(0),
                     damaged.eq(item.damaged),
-                    padded_left.eq(pair.left),
-                    padded_right.eq(pair.right),
                     eof_after_padding.eq(ends_here),
                 ]
                 with m.If(starts):

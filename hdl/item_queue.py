@@ -1,12 +1,15 @@
 """A register stage in a stream."""
 
-from amaranth.hdl import Module, ShapeLike, Signal
+from amaranth.hdl import Array, Module, ShapeLike, Signal
 from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
 
 
 class ItemQueue(wiring.Component):
     """Two places, so that neither side's logic reaches through to the other: one item a clock.
+
+    Items go to the places in turn. An empty place takes whatever is offered, so that no logic but its own
+    bit decides over its many registers, which may lie far away.
 
     Parameters
     ----------
@@ -26,24 +29,19 @@ class ItemQueue(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        # The spare place takes the item that comes while the output waits.
-        waiting = Signal()
-        spare = Signal(self._shape, reset_less=True)
-        output = Signal(self._shape, reset_less=True)
-        moves = Signal()
+        places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(2))
+        holds = Array(Signal(name=f"holds_{k}") for k in range(2))
+        newest, oldest = Signal(), Signal()  # the place that is filled next, and the one that is emptied next
         m.d.comb += [
-            self.i.ready.eq(~waiting),
-            self.o.payload.eq(output),
-            moves.eq(self.o.ready | ~self.o.valid),
+            self.i.ready.eq(~holds[newest]),
+            self.o.valid.eq(holds[oldest]),
+            self.o.payload.eq(places[oldest]),
         ]
-        with m.If(~waiting):
-            m.d.sync += spare.eq(self.i.payload)
-        with m.If(moves):
-            m.d.sync += [self.o.valid.eq(waiting | self.i.valid), waiting.eq(0)]
-            with m.If(waiting):
-                m.d.sync += output.eq(spare)
-            with m.Else():
-                m.d.sync += output.eq(self.i.payload)
-        with m.Elif(~waiting):
-            m.d.sync += waiting.eq(self.i.valid)
+        for place, held in zip(places, holds, strict=True):
+            with m.If(~held):
+                m.d.sync += place.eq(self.i.payload)
+        with m.If(self.i.valid & self.i.ready):
+            m.d.sync += [holds[newest].eq(1), newest.eq(~newest)]
+        with m.If(self.o.valid & self.o.ready):
+            m.d.sync += [holds[oldest].eq(0), oldest.eq(~oldest)]
         return m

@@ -98,9 +98,15 @@ class Pipeline:
         return self.result(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
 
     def multiply(self, a: Word, b: Word) -> Word:
-        """``a * b`` of two words that are never negative."""
-        a, b = self.aligned(a, b)
-        return self.result(a.value * b.value, 0, a.maximum * b.maximum, a.time)
+        """``a * b`` of two words that are never negative, from registers to a register of its own.
+
+        The multipliers of an FPGA are far from most logic, and have registers of their own: a whole clock
+        is the multiplication's, and what of a clock the operands leave unused is lost.
+        """
+        time = clocks(max(a.time, b.time), self._levels) * self._levels
+        a, b = self.at(a, time), self.at(b, time)
+        highest = a.maximum * b.maximum
+        return Word(self._register(a.value * b.value, 0, highest), 0, highest, time + self._levels)
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""

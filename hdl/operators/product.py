@@ -3,7 +3,7 @@
 from softdepth.config import Config
 from softdepth.hdl.adders import add_with_carry
 from softdepth.hdl.operators.cell import Corners, Position, complement, order
-from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl.pipeline import LEVELS, Pipeline, Word
 from softdepth.hdl.wires import constant, flag, inverted, wire
 
 
@@ -15,8 +15,8 @@ class Product:
     counts these four, of ``membership_bits + 1`` bits a side.
     """
 
-    corner_operations = 3
-    fire_operations = 2
+    corner_operations = 2 * LEVELS + 2
+    fire_operations = LEVELS + 1
 
     def __init__(self, config: Config) -> None:
         self._bits = config.membership_bits
@@ -25,6 +25,8 @@ class Product:
     def corners(self, pipeline: Pipeline, b: Word, c: Word) -> Corners:
         """See `CellOperator`."""
         one = self._one
+        # Memberships are limited by a reset of their registers, which those of a multiplier lack.
+        b, c = (pipeline.at(word, word.time + LEVELS) for word in (b, c))
         product = pipeline.multiply(b, c)
         _, _, larger = order(pipeline, b, c)
         p2 = pipeline.within(pipeline.rounded(product, self._bits), 0, one)

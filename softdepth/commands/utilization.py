@@ -34,7 +34,8 @@ def utilization(
 ) -> None:
     """Synthesise, place and route cores for an LFE5U-85F and write down area and speed.
 
-    What was measured before is taken from the cache, unless gateware, flow or tools have changed.
+    Netlists that were placed and routed before are not again: their figures are taken from the page that is
+    renewed, or from the cache.
     """
     from softdepth.flow import utilization, utilization_page
 
@@ -43,10 +44,11 @@ def utilization(
     configs = [each.config(disparities, width) for each, _ in rows]  # all are sound before the first is built
     if not output.is_dir():
         raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
+    known = utilization_page.load(output)
     found = []
     for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
         screen.note(f"row {number} of {len(rows)}: {each}")
-        found.append(utilization.measure(config, each.preset, seed=its_seed))
+        found.append(utilization.measure(config, each.preset, seed=its_seed, known=known))
     utilization_page.write(output, found)
     print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
 

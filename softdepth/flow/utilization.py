@@ -3,6 +3,7 @@
 import hashlib
 import json
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from pydantic import BaseModel
@@ -12,9 +13,8 @@ from softdepth.flow.blocks import Block, blocks
 from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.parts import PLACER, Part
 from softdepth.flow.route import Routed, place_and_route
-from softdepth.flow.sources import sources_hash
 from softdepth.flow.stages import Stages
-from softdepth.flow.synthesis import synthesise
+from softdepth.flow.synthesis import Netlist, synthesise
 from softdepth.flow.tools import find_tool
 from softdepth.sim.build import cache_folder
 
@@ -63,6 +63,7 @@ class Measurement(BaseModel):
 
     Members
     -------
+    key : changes with all that nextpnr was given: netlist, part, aim, seed and its own version.
     wrapper_lut4, wrapper_ff : what of the row's figures is not the core but the shift registers around it.
     critical_path : what limits `Row.fmax_mhz`.
     blocks : cells by block of the core.
@@ -70,6 +71,7 @@ class Measurement(BaseModel):
     """
 
     row: Row
+    key: str
     config_hash: str
     seed: int
     wrapper_lut4: int
@@ -97,38 +99,40 @@ class Selection(BaseModel, frozen=True):
         )
 
 
-def measure(config: Config, preset: str, *, part: Part = PART, seed: int = 1) -> Measurement:
-    """Synthesise, place and route a core and take its figures, or take them from the cache.
+def measure(
+    config: Config, preset: str, *, part: Part = PART, seed: int = 1, known: Iterable[Measurement] = ()
+) -> Measurement:
+    """Synthesise, place and route a core and take its figures.
+
+    Of a netlist that was placed and routed before with the same seed and the same nextpnr, the figures are
+    taken from `known` or from the cache: that is where the hours go.
 
     Parameters
     ----------
     config : the core.
     preset : what the row calls it.
+    known : earlier measurements.
 
     Raises `ConfigError` for a core that does not fit, and `ToolError` for a missing or failed tool.
     """
-    kept = cache_folder() / "flow" / "rows" / f"{_key(config, preset, part, seed)}.json"
-    if kept.is_file():
-        return Measurement.model_validate_json(kept.read_text())
-    found = _measure(config, preset, part, seed)
-    kept.parent.mkdir(parents=True, exist_ok=True)
-    new = kept.with_suffix(".new")
-    new.write_text(found.model_dump_json(indent=1))
-    new.replace(kept)
-    return found
-
-
-def _measure(config: Config, preset: str, part: Part, seed: int) -> Measurement:
     top = MeasuringTop(config)
     stages = Stages(f"{preset}/{config.operator}/{config.lanes}, {config.disparities} disparities")
     with tempfile.TemporaryDirectory(prefix="softdepth-") as temporary:
         work = Path(temporary)
         with stages.stage("synthesis"):
             netlist = synthesise(top, part.family, work, options=part.synthesis_options)
+        key = _key(netlist, preset, part, seed)
+        kept = cache_folder() / "flow" / "rows" / f"{key}.json"
+        for earlier in known:
+            if earlier.key == key:
+                return earlier
+        if kept.is_file():
+            return Measurement.model_validate_json(kept.read_text())
         with stages.stage("place and route"):
             routed = place_and_route(work, part, mhz=AIM_MHZ, seed=seed)
-    return Measurement(
+    found = Measurement(
         row=row_of(config, preset, part, routed),
+        key=key,
         config_hash=config.hash,
         seed=seed,
         wrapper_lut4=top.lut4,
@@ -137,6 +141,11 @@ def _measure(config: Config, preset: str, part: Part, seed: int) -> Measurement:
         blocks=blocks(netlist),
         seconds=stages.seconds,
     )
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    new = kept.with_suffix(".new")
+    new.write_text(found.model_dump_json(indent=1))
+    new.replace(kept)
+    return found
 
 
 def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
@@ -165,7 +174,8 @@ def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
     )
 
 
-def _key(config: Config, preset: str, part: Part, seed: int) -> str:
-    tools = [find_tool(name).version for name in ("yosys", PLACER[part.family])]
-    facts = [config.hash, preset, str(part), seed, AIM_MHZ, *tools, sources_hash()]
-    return hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:20]
+def _key(netlist: Netlist, preset: str, part: Part, seed: int) -> str:
+    digest = hashlib.sha256(json.dumps(netlist).encode())
+    facts = [preset, str(part), seed, AIM_MHZ, find_tool(PLACER[part.family]).version]
+    digest.update(json.dumps(facts).encode())
+    return digest.hexdigest()[:20]

@@ -9,6 +9,8 @@ from softdepth.flow.tools import find_tool
 from softdepth.flow.utilization import AIM_MHZ, PART, Measurement, Row, Selection
 from softdepth.golden.writers import write_atomically
 
+JSON = "utilization.json"
+
 VIDEO_MODES = {
     "VGA 60": 18.4,
     "720p30": 27.6,
@@ -34,6 +36,16 @@ DETAILED = "paper/mean/32"
 """The row whose blocks are listed, where it is among the rows."""
 
 
+def load(folder: Path) -> list[Measurement]:
+    """What a folder's ``utilization.json`` holds; nothing where there is none, or one of another form."""
+    try:
+        figures = json.loads((folder / JSON).read_text())
+        pairs = zip(figures["rows"], figures["runs"], strict=True)
+        return [Measurement.model_validate({"row": row, **run}) for row, run in pairs]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+
+
 def write(folder: Path, measurements: Sequence[Measurement]) -> None:
     """Write both files into `folder`."""
     tools = {name: find_tool(name).version for name in ("yosys", PLACER[PART.family], PACKER[PART.family])}
@@ -44,7 +56,7 @@ def write(folder: Path, measurements: Sequence[Measurement]) -> None:
         "rows": [found.row.model_dump() for found in measurements],
         "runs": [found.model_dump(exclude={"row"}) for found in measurements],
     }
-    write_atomically(folder / "utilization.json", (json.dumps(figures, indent=1) + "\n").encode())
+    write_atomically(folder / JSON, (json.dumps(figures, indent=1) + "\n").encode())
     write_atomically(folder / "utilization.md", page(measurements, tools).encode())
 
 

@@ -20,7 +20,7 @@ from .support import observe, piped
 
 def check(
     ranges: Sequence[Range],
-    operations: int,
+    operations: int | Callable[[int], int],
     build: Callable[[Pipeline, Sequence[Word]], Word],
     function: Callable[..., int],
     *,
@@ -29,7 +29,7 @@ def check(
     """Compare an expression with a function, at all extremes and at random, for 1 to 3 operations a clock.
 
     Its inputs change in every clock. Its range is what the function reaches, with ``lowest`` the minimum
-    where that is a bound only.
+    where that is a bound only. How many ``operations`` it takes may depend on how many a clock has.
     """
     random = Random(1)
     corners = list(itertools.islice(itertools.product(*ranges), 64))
@@ -40,10 +40,11 @@ def check(
         inputs.append([max(low for low, _ in ranges)] * 2)  # equal operands
     random.shuffle(inputs)
     for levels in (1, 2, 3):
-        dut = Arithmetic(ranges, operations, build, levels=levels)
+        wanted = operations if isinstance(operations, int) else operations(levels)
+        dut = Arithmetic(ranges, wanted, build, levels=levels)
         got = piped(dut, [{"i": {f"a{k}": v for k, v in enumerate(values)}} for values in inputs])
         assert got == [function(*values) for values in inputs]
-        assert dut.word.time == operations
+        assert dut.word.time == wanted
         assert dut.word.minimum == (min(got) if lowest is None else lowest) <= min(got)
         assert dut.word.maximum == max(got)
         assert dut.word.value.shape() == Shape.cast(range(dut.word.minimum, dut.word.maximum + 1))
@@ -79,7 +80,10 @@ def test_subtract(a: Range, b: Range) -> None:
     ("a", "b"), [((0, 255), (0, 255)), ((0, 1), (0, 256)), ((0, 0), (0, 9)), ((3, 7), (0, 4))]
 )
 def test_multiply(a: Range, b: Range) -> None:
-    check([a, b], 1, lambda p, w: p.multiply(w[0], w[1]), lambda x, y: x * y)
+    """A clock of its own, from a register to a register."""
+    check([a, b], lambda levels: levels, lambda p, w: p.multiply(w[0], w[1]), lambda x, y: x * y)
+    sum_first = lambda p, w: p.multiply(p.add(w[0], w[1]), w[1])  # noqa: E731
+    check([a, b], lambda levels: 2 * levels, sum_first, lambda x, y: (x + y) * y)
 
 
 @pytest.mark.parametrize("bits", [0, 1, 2, 8])

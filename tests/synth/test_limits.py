@@ -4,6 +4,7 @@ import copy
 
 import pytest
 
+from softdepth.config import PRESETS
 from softdepth.flow.limits import Limit, load_limits, taken
 from softdepth.flow.synthesis import TOP, core_netlist
 from tests.synth.conftest import SMALL
@@ -19,7 +20,7 @@ def test_a_small_core_stays_within_its_limit(limit):
 
 
 def test_every_preset_has_a_limit():
-    assert {limit.preset for limit in LIMITS} == {"paper", "lite", "sad"}
+    assert {limit.preset for limit in LIMITS} == set(PRESETS)
 
 
 @pytest.mark.slow

@@ -1,6 +1,8 @@
 """Rows of the table of area and speed: what they hold, how they follow from nextpnr, when they are made."""
 
 import json
+import shutil
+from types import SimpleNamespace
 
 import pytest
 from amaranth.sim import Simulator
@@ -14,6 +16,7 @@ from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.route import Clock, CriticalPath, Routed, Usage
 from softdepth.flow.sources import sources_hash
 from softdepth.flow.synthesis import TOP, synthesise
+from softdepth.flow.tools import Tool
 from softdepth.flow.utilization import PART, Row, Selection, row_of
 
 KEYS = [
@@ -42,6 +45,12 @@ def routed(fmax: float = 125.0, luts: int = 8000) -> Routed:
     counts = {"Total LUT4s": luts, "Total DFFs": 9000, "DP16KD": 12, "MULT18X18D": 34}
     usage = {word: Usage(count, 83640) for word, count in counts.items()}
     return Routed((Clock("clk", 150.0, fmax, PATH),), usage, 1)
+
+
+class Runs(list[int]):
+    """The seeds of the runs of nextpnr, and what stands for the gateware."""
+
+    gateware = "as it is"
 
 
 def row(fmax: float = 125.0, luts: int = 8000, lanes: int = 16) -> Row:
@@ -142,37 +151,70 @@ def test_blocks_account_for_every_cell(tmp_path):
 
 @pytest.fixture
 def runs(cache, monkeypatch):
-    """Measurements that take no time; what was measured is noted."""
-    done = []
+    """Measurements that take no time: the netlists that were placed and routed, with their seeds.
 
-    def measure(config, preset, part, seed):
-        done.append((config.hash, seed))
-        return utilization.Measurement(
-            row=row_of(config, preset, part, routed()),
-            config_hash=config.hash,
-            seed=seed,
-            wrapper_lut4=75,
-            wrapper_ff=205,
-            critical_path=str(PATH),
-            blocks=[],
-            seconds={"synthesis": 1.0},
-        )
+    ``runs.gateware`` is what synthesis makes of every configuration.
+    """
+    done = Runs()
 
-    monkeypatch.setattr(utilization, "_measure", measure)
+    def synthesise(design, family, folder, *, options):
+        return {"modules": {TOP: {"cells": {}}}, "of": f"{done.gateware} {design.config.hash}"}
+
+    def place_and_route(folder, part, *, mhz, seed):
+        done.append(seed)
+        return routed()
+
+    monkeypatch.setattr(
+        utilization,
+        "MeasuringTop",
+        lambda config: SimpleNamespace(config=config, lut4=75, flip_flops=205),
+    )
+    monkeypatch.setattr(utilization, "synthesise", synthesise)
+    monkeypatch.setattr(utilization, "place_and_route", place_and_route)
     return done
 
 
-def test_a_second_run_measures_what_has_changed_and_no_more(runs, monkeypatch):
+def test_a_netlist_is_placed_and_routed_once(runs):
     one, two = (Selection(preset="lite", operator="mean", lanes=n).config() for n in (4, 8))
     first = utilization.measure(one, "lite")
     assert utilization.measure(one, "lite") == first
-    assert runs == [(one.hash, 1)]
-    utilization.measure(two, "lite")
-    utilization.measure(one, "lite", seed=2)
-    assert runs == [(one.hash, 1), (two.hash, 1), (one.hash, 2)]
-    monkeypatch.setattr(utilization, "sources_hash", lambda: "other sources")
-    utilization.measure(one, "lite")
+    assert runs == [1]
+    assert utilization.measure(two, "lite").key != first.key
+    assert utilization.measure(one, "lite", seed=2).key != first.key
+    assert runs == [1, 1, 2]
+    runs.gateware = "changed"
+    assert utilization.measure(one, "lite").key != first.key
+    assert runs == [1, 1, 2, 1]
+
+
+def test_another_nextpnr_measures_again(runs, monkeypatch):
+    config = Selection(preset="lite", operator="mean", lanes=4).config()
+    first = utilization.measure(config, "lite")
+    monkeypatch.setattr(utilization, "find_tool", lambda name: Tool(name, (name,), "another version"))
+    assert utilization.measure(config, "lite").key != first.key
+    assert runs == [1, 1]
+
+
+def test_what_the_page_holds_is_not_measured_again(runs, cache, tmp_path):
+    """On a machine whose cache is empty, too; a row of changed gateware is measured anew."""
+    rows = ("--row", "paper/mean/4", "--row", "sad/mean/8")
+    assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
+    written = (tmp_path / "utilization.json").read_bytes()
+    assert len(runs) == 2
+    shutil.rmtree(cache)
+    assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
+    assert len(runs) == 2
+    assert (tmp_path / "utilization.json").read_bytes() == written
+    runs.gateware = "changed"
+    assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
     assert len(runs) == 4
+
+
+@pytest.mark.parametrize("text", ["", "{}", '{"rows": [1], "runs": []}', '{"rows": [{}], "runs": [{}]}'])
+def test_a_page_of_another_form_is_measured_anew(runs, tmp_path, text):
+    (tmp_path / "utilization.json").write_text(text)
+    assert main(["utilization", "--row", "sad/mean/8", "-o", str(tmp_path)]) == 0
+    assert len(runs) == 1
 
 
 def test_the_sources_hash_changes_with_the_sources(tmp_path):

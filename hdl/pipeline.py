@@ -98,15 +98,15 @@ class Pipeline:
         return self.result(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
 
     def multiply(self, a: Word, b: Word) -> Word:
-        """``a * b`` of two words that are never negative, from registers to a register of its own.
+        """``a * b`` of two words that are never negative, in two clocks from registers to a register.
 
-        The multipliers of an FPGA are far from most logic, and have registers of their own: a whole clock
-        is the multiplication's, and what of a clock the operands leave unused is lost.
+        The multipliers of an FPGA are far from most logic, and have registers of their own: a clock is for
+        the way there, and one for the product. What of a clock the operands leave unused is lost.
         """
-        time = clocks(max(a.time, b.time), self._levels) * self._levels
-        a, b = self.at(a, time), self.at(b, time)
+        there = (clocks(max(a.time, b.time), self._levels) + 1) * self._levels
+        a, b = self.at(a, there), self.at(b, there)
         highest = a.maximum * b.maximum
-        return Word(self._register(a.value * b.value, 0, highest), 0, highest, time + self._levels)
+        return Word(self._register(a.value * b.value, 0, highest), 0, highest, there + self._levels)
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""

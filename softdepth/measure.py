@@ -75,15 +75,18 @@ class Measurement:
         return mismatches([self.maps["fixed"]], [self.gateware])
 
 
-def check_fits(pair: "StereoPair", config: Config) -> None:
-    """Raise `InputError` unless a core of this configuration can take the pair."""
+def check_fits(pair: "StereoPair", config: Config, *, built: bool = False) -> None:
+    """Raise `InputError` unless a core of this configuration, perhaps a `built` one, can take the pair."""
     size = f"'{pair.name}' is {pair.width}x{pair.height}"
     for key, have, limit in (
         ("max_width", pair.width, config.max_width),
         ("max_height", pair.height, config.max_height),
     ):
         if have > limit:
-            raise InputError(f"{size}, but the core is built for {key} = {limit}", f"use --set {key}={have}")
+            remedy = f"use --set {key}={have}"
+            if built:
+                remedy = f"give smaller images, or build and load a core with --set {key}={have}"
+            raise InputError(f"{size}, but the core is built for {key} = {limit}", remedy)
     if pair.width < config.min_width or pair.height < config.min_height:
         raise InputError(
             f"{size}, and the smallest frame is {config.min_width}x{config.min_height}",

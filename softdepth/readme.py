@@ -64,7 +64,7 @@ def area(utilization: str) -> str:
     best: dict[str, Row] = {}
     for row in rows:
         known = best.get(row.preset)
-        if row.operator in ("mean", "-") and (known is None or row.mde_s > known.mde_s):
+        if row.operator == "mean" and (known is None or row.mde_s > known.mde_s):
             best[row.preset] = row
     return "\n".join(
         [

@@ -16,7 +16,7 @@ class Product:
     """
 
     corner_operations = 2 * LEVELS + 2
-    fire_operations = LEVELS + 1
+    fire_operations = 2 * LEVELS + 1
 
     def __init__(self, config: Config) -> None:
         self._bits = config.membership_bits
@@ -25,8 +25,6 @@ class Product:
     def corners(self, pipeline: Pipeline, b: Word, c: Word) -> Corners:
         """See `CellOperator`."""
         one = self._one
-        # Memberships are limited by a reset of their registers, which those of a multiplier lack.
-        b, c = (pipeline.at(word, word.time + LEVELS) for word in (b, c))
         product = pipeline.multiply(b, c)
         _, _, larger = order(pipeline, b, c)
         p2 = pipeline.within(pipeline.rounded(product, self._bits), 0, one)

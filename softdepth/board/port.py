@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import select
+import termios
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -14,6 +15,8 @@ from softdepth.errors import InputError, ToolError
 CHUNK = 1 << 16
 WRITE_SECONDS = 10.0
 """How long the system may take to accept a packet before the port counts as dead."""
+_FAILURES = (OSError, termios.error)
+"""What a port that went away raises, as pyserial passes it on."""
 
 
 class Port:
@@ -27,7 +30,7 @@ class Port:
         self.baud = baud
         try:
             self._serial = serial.Serial(path, baud, timeout=0, write_timeout=WRITE_SECONDS, exclusive=True)
-        except (OSError, ValueError) as error:
+        except (*_FAILURES, ValueError, OverflowError) as error:
             raise _unopened(path, error) from error
         # FTDI's driver collects bytes for 16 ms otherwise; other ports do not know the setting.
         with contextlib.suppress(OSError, ValueError, AttributeError, NotImplementedError):
@@ -39,14 +42,14 @@ class Port:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(*_FAILURES):
             self._serial.close()
 
     def write(self, data: bytes) -> None:
         """Send bytes."""
         try:
             self._serial.write(data)
-        except OSError as error:
+        except _FAILURES as error:
             raise self._gone() from error
 
     def read(self, seconds: float) -> bytes:
@@ -55,14 +58,14 @@ class Port:
             # pyserial would set up the whole port anew for each other timeout
             ready, _, _ = select.select([self._serial], [], [], seconds)
             return self._serial.read(CHUNK) if ready else b""
-        except (OSError, TypeError, ValueError) as error:  # pyserial's own state may be half closed
+        except (*_FAILURES, TypeError, ValueError) as error:  # pyserial's own state may be half closed
             raise self._gone() from error
 
     def drain(self) -> None:
         """Forget what came so far."""
         try:
             self._serial.reset_input_buffer()
-        except OSError as error:
+        except _FAILURES as error:
             raise self._gone() from error
 
     def _gone(self) -> ToolError:

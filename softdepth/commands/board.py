@@ -71,7 +71,7 @@ def board(
             device.check(wanted)
         chosen = found.config
         screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
-        pair = pairs.read(left, right, dataset, truth, truth_scale, chosen)
+        pair = pairs.read(left, right, dataset, truth, truth_scale, chosen, built=True)
         with results.result_folder(output, stale=report.FILES) as folder:
             measurement = measure.measure(pair, chosen, "board", device)
             summary = report.summarise(pair, chosen, measurement)

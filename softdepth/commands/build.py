@@ -38,8 +38,7 @@ def build(
 ) -> None:
     """Build a board's bitstream: synthesis, place and route, packing.
 
-    Without --preset or --config, the core is the largest preset that fits the board, as docs/flow.md
-    lists it.
+    Without --preset or --config, the core is the one that docs/flow.md lists for the board.
     """
     chosen_board = find_board(board)
     chosen = options.configuration(

@@ -35,8 +35,12 @@ def read(
     truth: Path | None,
     scale: float | None,
     config: Config,
+    *,
+    built: bool = False,
 ) -> "StereoPair":
     """The pair that these options choose, checked against the core; its notes go to the screen.
+
+    `built` tells that the core is on a board, so that no option changes it any more.
 
     Raises `InputError` where the options contradict, a file is unusable, or the core cannot take the pair.
     """
@@ -52,7 +56,7 @@ def read(
         from softdepth.golden import datasets
 
         pair = datasets.load(dataset, reference=config.reference)
-    measure.check_fits(pair, config)
+    measure.check_fits(pair, config, built=built)
     for text in pair.notes:
         screen.note(f"note: {text}")
     return pair

@@ -34,8 +34,8 @@ def utilization(
 ) -> None:
     """Synthesise, place and route cores for an LFE5U-85F and write down area and speed.
 
-    Netlists that were placed and routed before are not again: their figures are taken from the page that is
-    renewed, or from the cache.
+    With --row or --quick, the page's other rows stay as they are. A netlist that was placed and routed before
+    is not again: its figures are taken from the page that is renewed, or from the cache.
     """
     from softdepth.flow import utilization, utilization_page
 
@@ -49,7 +49,7 @@ def utilization(
     for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
         screen.note(f"row {number} of {len(rows)}: {each}")
         found.append(utilization.measure(config, each.preset, seed=its_seed, known=known))
-    utilization_page.write(output, found)
+    utilization_page.write(output, utilization_page.merged(known, found) if row or quick else found)
     print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
 
 

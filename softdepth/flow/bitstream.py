@@ -73,7 +73,9 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     tools = {name: find_tool(name) for name in ("yosys", PLACER[part.family], PACKER[part.family])}
     constraints = constraints_file(board)
     name = f"softdepth-{board.name}{part.suffix}"
-    facts = [sources_hash(constraints), str(board), config.model_dump_json(), seed, *map(str, tools.values())]
+    amaranth = f"amaranth {version('amaranth')}"
+    made_with = [amaranth, *map(str, tools.values())]
+    facts = [sources_hash(constraints), str(board), config.model_dump_json(), seed, *made_with]
     key = hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:20]
     if (known := _up_to_date(output, key)) is not None:
         return known
@@ -90,6 +92,7 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
         with stages.stage("place and route"):
             mhz = board.core_hz / 1e6
             routed = place_and_route(work, part, mhz=mhz, seed=seed, constraints=constraints)
+            routed.check_clock(mhz)
             routed.check_timing()
         with stages.stage("packing"):
             tools[PACKER[part.family]].run(part.pack(PLACED, name), work)
@@ -104,7 +107,7 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
             config_hash=config.hash,
             softdepth=version("softdepth"),
             revision=revision,
-            tools={name: tool.version for name, tool in tools.items()},
+            tools={"amaranth": amaranth, **{name: tool.version for name, tool in tools.items()}},
             seed=seed,
             clock=slowest.name,
             wanted_mhz=round(slowest.wanted_mhz, 2),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from softdepth.boards import Board, Family
 
-_ICE40 = {"iCE40UP5K": "--up5k", "iCE40HX8K": "--hx8k"}
+_ICE40 = {"iCE40UP5K": "--up5k"}
 _GOWIN = {"GW2AR-LV18": "GW2A-18C"}
 
 PLACER = {"ecp5": "nextpnr-ecp5", "ice40": "nextpnr-ice40", "gowin": "nextpnr-himbaechel"}

@@ -10,6 +10,8 @@ from softdepth.errors import ConfigError, ToolError
 from softdepth.flow.parts import PLACER, Part
 from softdepth.flow.tools import ToolRunError, find_tool
 
+CLOCK_TOLERANCE = 0.01
+"""How far a clock that nextpnr reckons from a PLL's settings may be from the one that is meant."""
 PLACED = "placed"
 """The file that a routed design is written to."""
 
@@ -84,6 +86,15 @@ class Routed:
     usage: dict[str, Usage]
     seed: int
 
+    def check_clock(self, mhz: float) -> None:
+        """Raise `ToolError` unless some clock was wanted to be `mhz`: the core's, behind the board's PLL."""
+        if not any(abs(clock.wanted_mhz / mhz - 1) < CLOCK_TOLERANCE for clock in self.clocks):
+            wanted = ", ".join(f"{clock.name} {clock.wanted_mhz:.2f}" for clock in self.clocks)
+            raise ToolError(
+                f"nextpnr was to judge a clock of {mhz:.2f} MHz, and judged {wanted or 'none'}",
+                "see whether this nextpnr knows the part's PLL; those from PyPI do",
+            )
+
     def check_timing(self) -> None:
         """Raise `TimingError` where a clock is slower than was asked."""
         for clock in self.clocks:
@@ -152,7 +163,8 @@ def _check_fits(counted: dict[str, Usage], part: Part) -> None:
             raise ConfigError(
                 f"the design needs {counted[word].used} {name}, and {part.device} has"
                 f" {counted[word].available}",
-                "use fewer lanes or disparities, a narrower max_width, or a larger part",
+                "use fewer lanes or disparities, a narrower max_width, stored_rows = 0 for less block RAM,"
+                " or a larger part",
             )
 
 

@@ -18,6 +18,8 @@ FILES = (
     "soft.py",
     "boards.py",
     "protocol.py",
+    "validity.py",
+    "errors.py",
     "flow",
 )
 

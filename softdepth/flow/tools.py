@@ -1,5 +1,6 @@
 """The programs of the FPGA flow: the user's own where new enough, else those that pip installed."""
 
+import contextlib
 import importlib.util
 import re
 import shutil
@@ -13,6 +14,9 @@ from pathlib import Path
 
 from softdepth.errors import ToolError
 from softdepth.sim.build import cache_folder
+
+VERSION_SECONDS = 60.0
+"""How long a program may take to tell its version."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +77,9 @@ class Tool:
             said += (folder / log).read_text(errors="replace")
         if done.returncode:
             kept = cache_folder() / "flow" / f"{self.name}.log"
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(said)
+            with contextlib.suppress(OSError):  # what went wrong counts more than where its log is
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                kept.write_text(said)
             raise ToolRunError(self.name, said, kept)
         return said
 
@@ -99,7 +104,8 @@ def find_tool(name: str) -> Tool:
     source = _SOURCES[name]
     missing = f"no {name} is installed"
     on_path = shutil.which(name)
-    if on_path is not None:
+    # What pip installed is in an activated environment's folder, too, but tells its version by its package.
+    if on_path is not None and Path(on_path).parent != Path(sys.executable).parent:
         text, found = _own_version(on_path)
         if source.oldest is None or found >= source.oldest:
             return Tool(name, (on_path,), text or f"{on_path}, of unknown version")
@@ -128,7 +134,18 @@ def share_folder(tool: Tool) -> Path:
 
 def _own_version(path: str) -> tuple[str, tuple[int, ...]]:
     """What a program on PATH calls itself, and the numbers in it; empty where it says nothing of use."""
-    done = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(
+            [path, "--version"],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
+            stdin=subprocess.DEVNULL,
+            timeout=VERSION_SECONDS,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return "", ()
     text = (done.stdout or done.stderr).partition("\n")[0].strip() if done.returncode == 0 else ""
     numbers = re.search(r"(?:Yosys |nextpnr-)(\d+)\.(\d+)", text)
     return text, tuple(map(int, numbers.groups())) if numbers else ()

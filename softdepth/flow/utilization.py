@@ -1,5 +1,6 @@
 """Area and speed of a core, measured: placed and routed on an ECP5 by nextpnr, without a board around it."""
 
+import contextlib
 import hashlib
 import json
 import tempfile
@@ -9,6 +10,7 @@ from pathlib import Path
 from pydantic import BaseModel
 
 from softdepth.config import Config, Operator
+from softdepth.errors import InputError
 from softdepth.flow.blocks import Block, blocks
 from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.parts import PLACER, Part
@@ -16,6 +18,7 @@ from softdepth.flow.route import Routed, place_and_route
 from softdepth.flow.stages import Stages
 from softdepth.flow.synthesis import Netlist, synthesise
 from softdepth.flow.tools import find_tool
+from softdepth.golden.writers import write_atomically
 from softdepth.sim.build import cache_folder
 
 PART = Part("ecp5", "LFE5U-85F", "CABGA381", "6")
@@ -141,10 +144,9 @@ def measure(
         blocks=blocks(netlist),
         seconds=stages.seconds,
     )
-    kept.parent.mkdir(parents=True, exist_ok=True)
-    new = kept.with_suffix(".new")
-    new.write_text(found.model_dump_json(indent=1))
-    new.replace(kept)
+    with contextlib.suppress(OSError, InputError):  # without a cache the next run takes longer, no more
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(kept, found.model_dump_json(indent=1).encode())
     return found
 
 

@@ -46,6 +46,12 @@ def load(folder: Path) -> list[Measurement]:
         return []
 
 
+def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Measurement]:
+    """The known measurements, new ones of the same configuration in their place, and the others behind."""
+    found = {_identity(each.row): each for each in known}
+    return list((found | {_identity(each.row): each for each in new}).values())
+
+
 def write(folder: Path, measurements: Sequence[Measurement]) -> None:
     """Write both files into `folder`."""
     tools = {name: find_tool(name).version for name in ("yosys", PLACER[PART.family], PACKER[PART.family])}
@@ -120,6 +126,10 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         *(f"| `{b.name}` | {b.lut4} | {b.ff} | {b.ebr} | {b.dsp} |" for b in detailed.blocks),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _identity(row: Row) -> tuple[str, int, int]:
+    return _name(row), row.disparities, row.width
 
 
 def _name(row: Row) -> str:

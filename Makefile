@@ -16,7 +16,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full bench compare paper bitstream program utilization savings lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare paper bitstream boards program utilization savings lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -82,10 +82,16 @@ export: $(READY) ## the core as Verilog in out/ (another preset: make export PRE
 bitstream: $(READY) ## a board's bitstream in out/BOARD (another: make bitstream BOARD=icebreaker)
 	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD)
 
+boards: $(READY) ## the bitstreams of all boards, and the table in docs/flow.md
+	@for board in `$(BIN)/python -c "from softdepth.boards import BOARDS; print(*BOARDS)"`; do \
+		$(BIN)/softdepth build --board $$board --seed $(SEED) -o out/$$board || exit; \
+	done
+	@$(BIN)/python -m softdepth.flow.boards_page out
+
 program: $(READY) ## load the bitstream into the board that is plugged in, built before if need be
 	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD) --program
 
-# Hours at first; what was measured before is taken from the cache. A part of it: ARGS=--quick.
+# Hours at first; a netlist that was measured before is not again. A part of it: ARGS=--quick.
 utilization: $(READY) ## measure area and speed: docs/utilization.md
 	@$(BIN)/softdepth utilization $(ARGS)
 

@@ -79,7 +79,8 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         "# Area and speed",
         "",
         "Written by `make utilization`; the same figures for programs are in"
-        " [utilization.json](utilization.json). One row again: `.venv/bin/softdepth utilization --row paper/mean/8`.",
+        " [utilization.json](utilization.json). One row again:"
+        " `.venv/bin/softdepth utilization --row paper/mean/8`.",
         "",
         f"{PART.device}, {PART.package}, speed grade {PART.speed}: synthesised, placed and routed;"
         f" {', '.join(f'{name}: {text}' for name, text in tools.items())}; aiming at"

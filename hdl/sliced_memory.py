@@ -14,7 +14,8 @@ class SlicedMemory(wiring.Component):
 
     Left alone, synthesis makes a deep memory of shallow blocks and chooses among their outputs. The
     words are cut into slices narrow enough for a single block to be as deep as the memory instead:
-    a few more blocks, and no logic in the read path.
+    a few more blocks, and no logic in the read path. Slices are as equal as may be, so that parts with
+    blocks of another size lose little at their edges.
 
     Parameters
     ----------
@@ -43,7 +44,8 @@ class SlicedMemory(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         word, data = Value.cast(self.written), Value.cast(self.data)
-        width = next((bits for deep, bits in SLICES.items() if self._depth <= deep), 1)
+        widest = next((bits for deep, bits in SLICES.items() if self._depth <= deep), 1)
+        width = -(-len(word) // -(-len(word) // widest))
         parts = []
         for low in range(0, len(word), width):
             part = word[low : low + width]

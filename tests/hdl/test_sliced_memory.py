@@ -75,3 +75,9 @@ def test_a_slice_is_a_block_as_deep_as_the_memory(bits: int, depth: int) -> None
         deep = BLOCK_BITS // 36 * 32 // PARITY[wide]
         assert depth <= deep or (depth > 16384 and width == 1)
     assert len({width for width, _ in slices[:-1]}) <= 1
+
+
+def test_slices_share_the_word() -> None:
+    """No more slices than the widest would take, and none wider than need be: 32 bits are four blocks of 8."""
+    text = rtlil.convert(SlicedMemory(96, 320), emit_src=False)
+    assert re.findall(r"memory width (\d+)", text) == ["32", "32", "32"]

@@ -78,6 +78,6 @@ def test_a_slice_is_a_block_as_deep_as_the_memory(bits: int, depth: int) -> None
 
 
 def test_slices_share_the_word() -> None:
-    """No more slices than the widest would take, and none wider than need be: 32 bits are four blocks of 8."""
+    """No more slices than the widest would take, and none wider than need be: 32 bits are blocks of 8."""
     text = rtlil.convert(SlicedMemory(96, 320), emit_src=False)
     assert re.findall(r"memory width (\d+)", text) == ["32", "32", "32"]

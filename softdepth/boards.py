@@ -90,7 +90,7 @@ def _boards() -> Iterator[Board]:
         overrides=("disparities=32", "lanes=1", "max_width=320", "stored_rows=0"),
         core_hz=18_000_000,
         baud=2_000_000,
-        program=("openFPGALoader", "--board", "ice40_generic", "{bitstream}"),
+        program=("openFPGALoader", "--board", "ice40_generic", "{bitstream}"),  # into its flash: no other way
     )
     yield Board(
         name="tangnano20k",

@@ -71,7 +71,8 @@ def load(board: Board, bitstream: Path) -> None:
     if done.returncode:
         raise ToolError(
             f"{board.program[0]} could not load the bitstream into the {board.name}",
-            "check the cable and that you may use the USB device",
+            "check the cable, that you may use the USB device, and that this version of the program knows the"
+            f" board: {board.program[0]} --list-boards",
         )
 
 

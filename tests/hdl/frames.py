@@ -28,7 +28,17 @@ def pixel(number: int, y: int, x: int) -> int:
 
 def lines(number: int, width: int, height: int) -> Lines:
     """The pixels of a frame."""
-    return [[pixel(number, y, x) for x in range(width)] for y in range(height)]
+    return [line_of(number, y, width) for y in range(height)]
+
+
+def line_of(number: int, y: int, width: int) -> list[int]:
+    """One line of a frame."""
+    return [pixel(number, y, x) for x in range(width)]
+
+
+def padded(line: list[int], width: int) -> list[int]:
+    """A line that is filled with its last pixel."""
+    return line + line[-1:] * (width - len(line))
 
 
 def source(frame: Lines, *, eof: bool = True, marks: dict[tuple[int, int], str] | None = None) -> list[int]:

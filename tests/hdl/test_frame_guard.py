@@ -7,7 +7,7 @@ import pytest
 
 from softdepth.hdl.frame_guard import FrameGuard
 
-from .frames import Lines, frames, lines, partner, pixel, source
+from .frames import Lines, frames, line_of, lines, padded, partner, source
 from .support import Transfers, config, pair, sad, stream_through
 
 MAX_WIDTH = 10
@@ -66,14 +66,6 @@ GOOD = lines(1, 5, 3)
 Case = tuple[list[int], Lines | None, str, int | None, dict[str, int]]
 
 
-def padded(line: list[int], width: int) -> list[int]:
-    return line + line[-1:] * (width - len(line))
-
-
-def longer(number: int, y: int, width: int) -> list[int]:
-    return [pixel(number, y, x) for x in range(width)]
-
-
 DAMAGE: dict[str, Case] = {
     "short line": (
         source([GOOD[0], GOOD[1][:3], GOOD[2]]),
@@ -104,14 +96,14 @@ DAMAGE: dict[str, Case] = {
         {"short_lines": 1},
     ),
     "long line": (
-        source([GOOD[0], longer(1, 1, 8), GOOD[2]]),
+        source([GOOD[0], line_of(1, 1, 8), GOOD[2]]),
         GOOD,
         "eof",
         1,
         {"long_lines": 1},
     ),
     "long last line": (
-        source([GOOD[0], GOOD[1], longer(1, 2, 6)]),
+        source([GOOD[0], GOOD[1], line_of(1, 2, 6)]),
         GOOD,
         "end",
         2,
@@ -125,7 +117,7 @@ DAMAGE: dict[str, Case] = {
         {"long_lines": 1},
     ),
     "long line, then a short one": (
-        source([GOOD[0], longer(1, 1, 7), GOOD[2][:2]]),
+        source([GOOD[0], line_of(1, 1, 7), GOOD[2][:2]]),
         [GOOD[0], GOOD[1], padded(GOOD[2][:2], 5)],
         "eof",
         1,
@@ -160,7 +152,7 @@ DAMAGE: dict[str, Case] = {
         {"early_starts": 1, "short_lines": 1},
     ),
     "start in the cut part of a line": (
-        source([GOOD[0], longer(1, 1, 7)], marks={(6, 1): "none"}),
+        source([GOOD[0], line_of(1, 1, 7)], marks={(6, 1): "none"}),
         GOOD[:2],
         "end",
         1,

@@ -11,40 +11,27 @@ from softdepth.boards import BOARDS, Board
 from softdepth.config import Config
 from softdepth.errors import InputError, SoftdepthError
 from softdepth.flow.bitstream import MANIFEST, Manifest
+from softdepth.flow.route import WORDS
 from softdepth.golden.writers import write_atomically
 
 DOCUMENT = Path("docs/flow.md")
 PART = "boards"
 
-# nextpnr's words for each column; a family has one of them, or none.
-_COLUMNS = {
-    "LUT4": ("Total LUT4s", "LUT4"),
-    "logic cells": ("ICESTORM_LC",),
-    "flip-flops": ("Total DFFs", "DFF"),
-    "block RAMs": ("DP16KD", "ICESTORM_RAM", "BSRAM"),
-    "multipliers": ("MULT18X18D", "ICESTORM_DSP", "MULT18X18", "MULT9X9"),
-}
+RESOURCES = tuple(dict.fromkeys(WORDS.values()))
+"""What a user counts, a column each; a family has most of them."""
 
 
 def page(manifests: dict[Board, Manifest]) -> str:
     """The table: a row a board, with what its default core takes of the part and how fast it is."""
     lines = [
         "| board | part | core by default | largest image | "
-        + " | ".join(_COLUMNS)
+        + " | ".join(RESOURCES)
         + " | clock, MHz | reached | Mpixel/s | bitstream |",
-        "|---|---|---|---|" + "---:|" * (len(_COLUMNS) + 3) + "---|",
+        "|---|---|---|---|" + "---:|" * (len(RESOURCES) + 3) + "---|",
     ]
     for board, manifest in manifests.items():
         config = Config.from_dict(manifest.config)
-        used = (
-            " + ".join(
-                f"{manifest.usage[word]['used']:,} of {manifest.usage[word]['available']:,}"
-                for word in words
-                if word in manifest.usage
-            )
-            or "-"
-            for words in _COLUMNS.values()
-        )
+        used = (_used(manifest, resource) for resource in RESOURCES)
         lines.append(
             f"| `{board.name}` | {board.device} | `{config.name}`, {config.disparities} disparities,"
             f" lanes = {config.lanes} | {config.max_width} x {config.max_height} | {' | '.join(used)}"
@@ -52,6 +39,13 @@ def page(manifests: dict[Board, Manifest]) -> str:
             f" | {manifest.wanted_mhz / config.steps:.1f} | `{Path(manifest.bitstream).suffix}` |"
         )
     return "\n".join(lines)
+
+
+def _used(manifest: Manifest, resource: str) -> str:
+    """How many of a resource the core takes, and of how many."""
+    words = (word for word, name in WORDS.items() if name == resource and word in manifest.usage)
+    count = manifest.usage.get(next(words, ""))
+    return f"{count['used']:,} of {count['available']:,}" if count else "-"
 
 
 def manifests(folder: Path) -> dict[Board, Manifest]:

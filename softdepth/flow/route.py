@@ -17,8 +17,7 @@ PLACED = "placed"
 
 _USED = re.compile(r"^Info:\s+([^:\n]+):\s+(\d+)/\s*(\d+)\s+\d+%", re.MULTILINE)
 
-# nextpnr's words for what a user counts, the most telling first.
-_WORDS = {
+WORDS = {
     "Total LUT4s": "LUT4",
     "TRELLIS_COMB": "LUT4",
     "ICESTORM_LC": "logic cells",
@@ -31,7 +30,9 @@ _WORDS = {
     "BSRAM": "block RAMs",
     "MULT18X18D": "multipliers",
     "ICESTORM_DSP": "multipliers",
+    "MULT18X18": "multipliers",
 }
+"""nextpnr's words for what a user counts, the most telling first."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +159,7 @@ def usage(log: str) -> dict[str, Usage]:
 
 
 def _check_fits(counted: dict[str, Usage], part: Part) -> None:
-    for word, name in _WORDS.items():
+    for word, name in WORDS.items():
         if word in counted and counted[word].used > counted[word].available:
             raise ConfigError(
                 f"the design needs {counted[word].used} {name}, and {part.device} has"

@@ -16,7 +16,7 @@ from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.parts import PLACER, Part
 from softdepth.flow.route import Routed, place_and_route
 from softdepth.flow.stages import Stages
-from softdepth.flow.synthesis import Netlist, synthesise
+from softdepth.flow.synthesis import synthesise
 from softdepth.flow.tools import find_tool
 from softdepth.golden.writers import write_atomically
 from softdepth.sim.build import cache_folder
@@ -124,7 +124,7 @@ def measure(
         work = Path(temporary)
         with stages.stage("synthesis"):
             netlist = synthesise(top, part.family, work, options=part.synthesis_options)
-        key = _key(netlist, preset, part, seed)
+        key = _key((work / "netlist.json").read_bytes(), preset, part, seed)
         kept = cache_folder() / "flow" / "rows" / f"{key}.json"
         for earlier in known:
             if earlier.key == key:
@@ -176,8 +176,8 @@ def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
     )
 
 
-def _key(netlist: Netlist, preset: str, part: Part, seed: int) -> str:
-    digest = hashlib.sha256(json.dumps(netlist).encode())
+def _key(netlist: bytes, preset: str, part: Part, seed: int) -> str:
+    digest = hashlib.sha256(netlist)
     facts = [preset, str(part), seed, AIM_MHZ, find_tool(PLACER[part.family]).version]
     digest.update(json.dumps(facts).encode())
     return digest.hexdigest()[:20]

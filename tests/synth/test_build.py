@@ -13,7 +13,7 @@ from softdepth.cli import main
 from softdepth.config import Config
 from softdepth.flow import bitstream
 from softdepth.flow.bitstream import FILES, MANIFEST, Manifest, git_revision
-from softdepth.flow.synthesis import TOP
+from softdepth.flow.synthesis import TOP, cells
 from tests.synth.test_route import LOG, REPORT
 
 SMALLEST = ("--preset", "sad", "--disparities", 4, "--lanes", 1, "--set", "max_width=16")
@@ -55,18 +55,30 @@ def build(
 
 @dataclass(frozen=True)
 class Form:
-    """What a family's bitstream begins with, what its tools are and count, and the core to build."""
+    """What a family's build must look like, and the core to build.
 
-    start: bytes
-    flip_flops: str
-    tools: tuple[str, ...]
+    Members
+    -------
+    start : what stands within the first so many bytes of the bitstream.
+    word, kind, more_than : nextpnr counts as `word` the netlist's cells of that kind.
+    tools : beside yosys.
+    """
+
+    start: dict[bytes, int]
+    word: str
+    kind: str
+    more_than: int
+    tools: tuple[str, str]
     core: tuple[object, ...] = SMALLEST
 
 
+ECP5 = {b"LFE5U-12F": 200, b"\xff\xff\xbd\xb3": 400}
+ICE40 = {b"\xff\x00\x00\xff\x7e\xaa\x99\x7e": 400}
+GOWIN = {b"1010010111000011\n": 1000}
 FORMS = {
-    "ulx3s-12f": Form(b"\xff\xff\xbd\xb3", "Total DFFs", ("nextpnr-ecp5", "ecppack")),
-    "icebreaker": Form(b"\xff\x00\x00\xff\x7e\xaa\x99\x7e", "ICESTORM_LC", ("nextpnr-ice40", "icepack"), ()),
-    "tangnano20k": Form(b"1010010111000011\n", "DFF", ("nextpnr-himbaechel", "gowin_pack")),
+    "ulx3s-12f": Form(ECP5, "Total DFFs", "TRELLIS_FF", 100, ("nextpnr-ecp5", "ecppack")),
+    "icebreaker": Form(ICE40, "ICESTORM_RAM", "SB_RAM40_4K", 20, ("nextpnr-ice40", "icepack"), ()),
+    "tangnano20k": Form(GOWIN, "RAM16SDP4", "RAM16SDP4", 20, ("nextpnr-himbaechel", "gowin_pack")),
 }
 
 
@@ -85,7 +97,8 @@ def test_a_core_becomes_a_bitstream(board, tmp_path, capfd):
     manifest = Manifest.model_validate_json((output / MANIFEST).read_text())
     assert {file.name for file in output.iterdir()} == {*FILES, MANIFEST, manifest.bitstream}
     bits = (output / manifest.bitstream).read_bytes()
-    assert form.start in bits[:1000], bits[:1000]
+    for what, within in form.start.items():
+        assert what in bits[:within], bits[:within]
     config = Config.load(output / "config.toml")
     assert (manifest.config_hash, manifest.seed) == (config.hash, 3)
     assert (config.disparities, config.lanes) == ((4, 1) if form.core else (32, 1))
@@ -93,7 +106,8 @@ def test_a_core_becomes_a_bitstream(board, tmp_path, capfd):
     assert manifest.fmax_mhz >= manifest.wanted_mhz
     assert set(manifest.tools) == {"amaranth", "yosys", *form.tools}
     assert list(manifest.seconds) == ["synthesis", "place and route", "packing"]
-    assert manifest.usage[form.flip_flops]["used"] > 100
+    found = cells(json.loads((output / "netlist.json").read_text()))
+    assert manifest.usage[form.word]["used"] == found[form.kind] > form.more_than
 
 
 def test_the_manifest_says_how_it_came_about(tools, tmp_path):

@@ -159,7 +159,8 @@ def runs(cache, monkeypatch):
     done = Runs()
 
     def synthesise(design, family, folder, *, options):
-        return {"modules": {TOP: {"cells": {}}}, "of": f"{done.gateware} {design.config.hash}"}
+        (folder / "netlist.json").write_text(f"{done.gateware} {design.config.hash}")
+        return {"modules": {TOP: {"cells": {}}}}
 
     def place_and_route(folder, part, *, mhz, seed):
         done.append(seed)

@@ -48,10 +48,10 @@ compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md
 				-o out/compare/$$pair-$$1-$$2 || exit; \
 		done; \
 	done
-	@$(BIN)/python -m softdepth.compare.document out/compare
+	@$(BIN)/python -m softdepth.studies.compare.document out/compare
 
 savings: $(READY) ## what each saving of area buys a lane: docs/area.md
-	@$(BIN)/python -m softdepth.flow.savings
+	@$(BIN)/python -m softdepth.studies.savings
 
 lint: $(READY) ## style, likely bugs and formatting
 	@$(BIN)/ruff check $(SOURCES)
@@ -83,10 +83,10 @@ bitstream: $(READY) ## a board's bitstream in out/BOARD (another: make bitstream
 	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD)
 
 boards: $(READY) ## the bitstreams of all boards, and the table in docs/flow.md
-	@for board in `$(BIN)/python -c "from softdepth.boards import BOARDS; print(*BOARDS)"`; do \
+	@for board in `$(BIN)/python -c "from softdepth.spec.boards import BOARDS; print(*BOARDS)"`; do \
 		$(BIN)/softdepth build --board $$board --seed $(SEED) -o out/$$board || exit; \
 	done
-	@$(BIN)/python -m softdepth.flow.boards_page out
+	@$(BIN)/python -m softdepth.studies.boards_page out
 
 program: $(READY) ## load the bitstream into the board that is plugged in, built before if need be
 	@$(BIN)/softdepth build --board $(BOARD) --seed $(SEED) $(ARGS) -o out/$(BOARD) --program
@@ -96,7 +96,7 @@ utilization: $(READY) ## measure area and speed: docs/utilization.md
 	@$(BIN)/softdepth utilization $(ARGS)
 
 readme: demo ## renew the figures and the picture in README.md from the demo's results
-	@$(BIN)/python -m softdepth.readme $(DEMO)
+	@$(BIN)/python -m softdepth.studies.readme $(DEMO)
 
 clean: ## remove builds and results
 	rm -rf build dist out .pytest_cache .ruff_cache *.egg-info

@@ -5,18 +5,18 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.config import LITERAL_INPUT, Config
-from softdepth.errors import ConfigError
-from softdepth.golden.borders import validity_codes
-from softdepth.golden.candidates import band, bands
-from softdepth.golden.criteria import Values, compensate
-from softdepth.golden.inference import conclusions
+from softdepth.golden.costs.candidates import band, bands
+from softdepth.golden.costs.criteria import Values, compensate
+from softdepth.golden.costs.fuzzy.inference import conclusions
+from softdepth.golden.costs.fuzzy.operators import operator
+from softdepth.golden.front.borders import validity_codes
+from softdepth.golden.front.pair import Image, check_pair, check_pixel
+from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.operators import operator
-from softdepth.golden.pair import Image, check_pair, check_pixel
-from softdepth.golden.views import column_in_core_view, from_core_view, to_core_view
-from softdepth.rules import CONCLUSIONS, weight
-from softdepth.validity import Validity
+from softdepth.spec.config import LITERAL_INPUT, Config
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.rules import CONCLUSIONS, weight
+from softdepth.spec.validity import Validity
 
 Array = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.errors import InputError
-from softdepth.validity import Validity
+from softdepth.spec.errors import InputError
+from softdepth.spec.validity import Validity
 
 
 class Result(NamedTuple):

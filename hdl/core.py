@@ -5,21 +5,21 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
-from softdepth.hdl.argmin import ArgminSequence, ArgminTree, candidate_layout
-from softdepth.hdl.cost import fraction_layout
-from softdepth.hdl.delay import Delay
-from softdepth.hdl.exclusion import Exclusion
-from softdepth.hdl.frame_guard import FrameGuard, item_layout
-from softdepth.hdl.item_queue import ItemQueue
-from softdepth.hdl.lane import Lane, column_layout
-from softdepth.hdl.line_buffer import LineBuffer
-from softdepth.hdl.pipeline import Pipeline, Word, travelling
-from softdepth.hdl.right_columns import RightColumns, candidate
-from softdepth.hdl.row_memory import LOOKUP_AHEAD
-from softdepth.hdl.sequencer import Sequencer, tags_layout
+from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.costs.cost import fraction_layout
+from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD
+from softdepth.hdl.costs.lane import Lane, column_layout
+from softdepth.hdl.front.exclusion import Exclusion
+from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
+from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.front.line_buffer import LineBuffer
+from softdepth.hdl.front.right_columns import RightColumns, candidate
+from softdepth.hdl.front.sequencer import Sequencer, tags_layout
+from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
-from softdepth.validity import Validity
+from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.spec.config import Config
+from softdepth.spec.validity import Validity
 
 FIFO_LATENCY = 2
 """Clocks from a write into the result FIFO to its output."""

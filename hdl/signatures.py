@@ -7,7 +7,7 @@ and any stall pattern leaves it intact.
 from amaranth.hdl import unsigned
 from amaranth.lib import data
 
-from softdepth.config import CHANNEL_BITS, CHANNELS, Config
+from softdepth.spec.config import CHANNEL_BITS, CHANNELS, Config
 
 PIXEL_BITS = CHANNELS * CHANNEL_BITS
 COUNTER_BITS = 16

@@ -6,8 +6,8 @@ import re
 from amaranth.back import verilog
 from amaranth.lib.wiring import Component
 
-from softdepth.config import Config
 from softdepth.hdl.core import StereoCore
+from softdepth.spec.config import Config
 
 TOP = "softdepth_core"
 

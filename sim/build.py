@@ -19,11 +19,11 @@ from typing import TextIO
 
 import cocotb
 import cocotb_tools.config
-import platformdirs
 
-from softdepth.errors import ToolError
+from softdepth.files import cache_folder
 from softdepth.sim import build_cache
 from softdepth.sim.toolchain import Toolchain, find_toolchain
+from softdepth.spec.errors import ToolError
 
 TOP = "softdepth_core"
 """Module and program name of every simulated design."""
@@ -48,11 +48,6 @@ class Build:
     folder: Path
     cached: bool
     seconds: float
-
-
-def cache_folder() -> Path:
-    """Where builds are kept: ``$SOFTDEPTH_CACHE``, or the user's cache folder."""
-    return Path(os.environ.get("SOFTDEPTH_CACHE") or platformdirs.user_cache_dir("softdepth")).absolute()
 
 
 def build(

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from softdepth.errors import ToolError
+from softdepth.spec.errors import ToolError
 
 MAX_BYTES = 1 << 30
 """What builds may take together. Most take about a megabyte."""

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from softdepth.errors import InputError
 from softdepth.golden.maps import DisparityMap, Result
+from softdepth.spec.errors import InputError
 
 
 class Mismatch(NamedTuple):

@@ -6,9 +6,9 @@ and returns a damaged copy. Rows and columns count from 0.
 
 import numpy as np
 
-from softdepth.errors import InputError
 from softdepth.hdl.signatures import PixelPair
 from softdepth.sim.transfers import Payloads, unpack_field
+from softdepth.spec.errors import InputError
 
 
 def drop_pixels(transfers: Payloads, y: int, count: int) -> Payloads:

@@ -6,15 +6,15 @@ from itertools import accumulate
 
 import numpy as np
 
-from softdepth.config import Config
-from softdepth.errors import InputError, ToolError
+from softdepth.golden.front.pair import Image, check_pair
+from softdepth.golden.front.views import from_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.pair import Image, check_pair
-from softdepth.golden.views import from_core_view, to_core_view
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Stalls
 from softdepth.sim.stream import Progress, StreamResult, run_stream
 from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
+from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError, ToolError
 
 Pair = tuple[Image, Image]
 

@@ -5,11 +5,11 @@ import json
 import tempfile
 from pathlib import Path
 
-from softdepth.errors import ToolError
 from softdepth.flow.synthesis import SCOPE, Netlist
 from softdepth.flow.synthesis import TOP as SYNTHESISED
 from softdepth.flow.tools import Tool, find_tool, share_folder
 from softdepth.sim.build import TOP
+from softdepth.spec.errors import ToolError
 
 YOSYS_MODELS = ("common_sim.vh", "ccu2c_sim.vh")
 """yosys' own models of lookup tables, carry cells, flip-flops and distributed RAM."""

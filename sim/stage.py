@@ -10,12 +10,12 @@ from functools import cached_property
 
 import numpy as np
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model
+from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.pair import Image
 from softdepth.sim.compare import Mismatch, mismatches
-from softdepth.validity import Validity
+from softdepth.spec.config import Config
+from softdepth.spec.validity import Validity
 
 Pair = tuple[Image, Image]
 Maps = Sequence[DisparityMap]

@@ -6,7 +6,7 @@ from typing import Literal, Self
 
 import numpy as np
 
-from softdepth.errors import ConfigError
+from softdepth.spec.errors import ConfigError
 
 Mode = Literal["none", "random", "bursts"]
 BLOCK = 4096

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from cocotb_tools.runner import get_runner
 
-from softdepth.errors import ToolError
 from softdepth.sim.build import TOP, build
 from softdepth.sim.job import JOB_VARIABLE, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
+from softdepth.spec.errors import ToolError
 
 Progress = Callable[[int], None]
 """Called now and then, from another thread, with the number of results so far."""

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import find_libpython
 
-from softdepth.errors import ToolError
+from softdepth.spec.errors import ToolError
 
 OLDEST_VERILATOR = (5, 36)
 """What cocotb 2.1 needs."""

@@ -6,11 +6,11 @@ import numpy as np
 from amaranth.lib.data import StructLayout
 from numpy.typing import NDArray
 
-from softdepth.config import CHANNEL_BITS, Config
-from softdepth.errors import ToolError
+from softdepth.golden.front.pair import Image, check_pair
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.pair import Image, check_pair
 from softdepth.hdl.signatures import PixelPair, Status, result_layout
+from softdepth.spec.config import CHANNEL_BITS, Config
+from softdepth.spec.errors import ToolError
 
 Payloads = NDArray[np.uint64]
 

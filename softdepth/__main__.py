@@ -2,6 +2,6 @@
 
 import sys
 
-from softdepth.cli import main
+from softdepth.cli.app import main
 
 sys.exit(main())

@@ -5,8 +5,8 @@ from amaranth.lib import wiring
 from amaranth.lib.cdc import ResetSynchronizer
 from amaranth.lib.wiring import In, Out
 
-from softdepth.boards import Board
 from softdepth.hdl.boards.pll import pll
+from softdepth.spec.boards import Board
 
 HOLD_CLOCKS = 256
 """Clocks of reset after the PLL has locked. iCE40 block RAM is not readable in the first microseconds."""

@@ -5,9 +5,9 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.memory import Memory, WritePort
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.signatures import PIXEL_BITS, PixelPair
-from softdepth.protocol import PAIR_BYTES
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import PAIR_BYTES
 
 
 class LineStore(wiring.Component):

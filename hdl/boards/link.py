@@ -5,21 +5,21 @@ from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.boards.line_store import LineStore
 from softdepth.hdl.boards.outbox import Outbox
 from softdepth.hdl.boards.result_store import ResultStore
+from softdepth.hdl.boards.serial.parser import PacketParser
+from softdepth.hdl.boards.serial.receiver import UartReceiver
+from softdepth.hdl.boards.serial.sender import PacketSender
+from softdepth.hdl.boards.serial.transmitter import UartTransmitter
 from softdepth.hdl.boards.session import Session
 from softdepth.hdl.core import StereoCore
-from softdepth.hdl.serial.parser import PacketParser
-from softdepth.hdl.serial.receiver import UartReceiver
-from softdepth.hdl.serial.sender import PacketSender
-from softdepth.hdl.serial.transmitter import UartTransmitter
-from softdepth.protocol import COUNTERS, REPLY, ROW, Type
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import COUNTERS, REPLY, ROW, Type
 
 
 class SerialCore(wiring.Component):
-    """A stereo core that speaks `softdepth.protocol` on a serial line.
+    """A stereo core that speaks `softdepth.spec.protocol` on a serial line.
 
     ::
 
@@ -30,7 +30,7 @@ class SerialCore(wiring.Component):
     ----------
     config : of the core.
     divisor : clocks per bit of the line.
-    hello : what the board says of itself (`softdepth.protocol.describe`), kept in a ROM.
+    hello : what the board says of itself (`softdepth.spec.protocol.describe`), kept in a ROM.
 
     Members
     -------

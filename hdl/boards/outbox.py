@@ -6,9 +6,9 @@ from amaranth.hdl import Module, Signal
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.boards.result_store import SLOTS
-from softdepth.protocol import REPLY, ROW, Type, result_bytes
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import REPLY, ROW, Type, result_bytes
 
 Reply = data.StructLayout({"type": 8, "has_line": 1, "slot": range(SLOTS), "row": 16})
 """A reply, as it is kept to be sent again: its type, and the line of results that is in it."""

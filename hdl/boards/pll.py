@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from amaranth.hdl import Const, Instance, Signal
 
-from softdepth.boards import Board
-from softdepth.errors import ConfigError
+from softdepth.spec.boards import Board
+from softdepth.spec.errors import ConfigError
 
 MHZ = 1_000_000
 

@@ -5,9 +5,9 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.signatures import result_layout
-from softdepth.protocol import WINDOW, result_bytes
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import WINDOW, result_bytes
 
 SLOTS = WINDOW + 2
 """One line for each reply that may have to be sent again, one that is ready, and one that the core fills.

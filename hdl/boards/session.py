@@ -4,11 +4,11 @@ from amaranth.hdl import Array, Cat, Const, Module, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.boards.outbox import Letter, Reply
 from softdepth.hdl.boards.result_store import SLOTS
 from softdepth.hdl.signatures import COUNTER_BITS
-from softdepth.protocol import REPLY, SIZE, VERSION, WINDOW, Reason, Repeat, Type
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import REPLY, SIZE, VERSION, WINDOW, Reason, Repeat, Type
 
 PACKETS, BROKEN, GAPS, OVERRUNS = range(4)
 

@@ -4,16 +4,16 @@ from amaranth.hdl import Cat, ClockDomain, ClockSignal, Module, ResetSignal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.boards import Board
-from softdepth.config import Config
-from softdepth.errors import ConfigError
 from softdepth.hdl.boards.clocking import Clocking
 from softdepth.hdl.boards.lamps import Lamps
 from softdepth.hdl.boards.link import SerialCore
 from softdepth.hdl.boards.pll import MHZ
+from softdepth.hdl.boards.serial.receiver import MIN_DIVISOR
 from softdepth.hdl.boards.wiring import WIRING
-from softdepth.hdl.serial.receiver import MIN_DIVISOR
-from softdepth.protocol import describe
+from softdepth.spec.boards import Board
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.protocol import describe
 
 MAX_RATE_ERROR = 0.015
 """How far the line's rate may be off: half a bit in ten, shared between both ends, with some to spare."""

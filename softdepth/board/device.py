@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softdepth.board.link import REBUILD, Link, Request
-from softdepth.config import Config
-from softdepth.errors import ConfigError, ToolError
-from softdepth.protocol import COUNTERS, ROW, SIZE, Counters, Type, result_bytes
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError, ToolError
+from softdepth.spec.protocol import COUNTERS, ROW, SIZE, Counters, Type, result_bytes
 
 if TYPE_CHECKING:
+    from softdepth.golden.front.pair import Image
     from softdepth.golden.maps import DisparityMap
-    from softdepth.golden.pair import Image
 
 MAX_IDLE_FETCHES = 1000
 """How often a board may have no line of results ready, though all pixels are there."""
@@ -26,7 +26,7 @@ class Description:
 
     Members
     -------
-    board : its name, as `softdepth.boards` has it.
+    board : its name, as `softdepth.spec.boards` has it.
     revision : what the bitstream was built from.
     config : of its core.
     """
@@ -64,8 +64,8 @@ class Device:
         `progress` is called with the number of results so far. Raises `ToolError` where the link fails or
         the core reports damage.
         """
+        from softdepth.golden.front.views import from_core_view, to_core_view
         from softdepth.golden.maps import DisparityMap
-        from softdepth.golden.views import from_core_view, to_core_view
 
         config = self.description.config
         reference, other = to_core_view(left, right, config)

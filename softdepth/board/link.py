@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from softdepth.board.port import Port
-from softdepth.errors import ToolError
-from softdepth.protocol import (
+from softdepth.spec.errors import ToolError
+from softdepth.spec.protocol import (
     FLAG,
     REPLY,
     SEQUENCES,

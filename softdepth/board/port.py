@@ -10,7 +10,7 @@ from typing import Self
 
 import serial
 
-from softdepth.errors import InputError, ToolError
+from softdepth.spec.errors import InputError, ToolError
 
 CHUNK = 1 << 16
 WRITE_SECONDS = 10.0

@@ -12,16 +12,16 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from softdepth.boards import Board
-from softdepth.config import Config
-from softdepth.errors import InputError
+from softdepth.files import result_folder
 from softdepth.flow.parts import PACKER, PLACER, Part
 from softdepth.flow.route import PLACED, place_and_route
-from softdepth.flow.sources import PROJECT, sources_hash
 from softdepth.flow.stages import Stages
 from softdepth.flow.synthesis import synthesise
 from softdepth.flow.tools import find_tool
-from softdepth.results import result_folder
+from softdepth.sources import PROJECT, sources_hash
+from softdepth.spec.boards import Board
+from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError
 
 MANIFEST = "manifest.json"
 FILES = ("config.toml", "netlist.json", "nextpnr.log", "timing.json")
@@ -75,7 +75,13 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     name = f"softdepth-{board.name}{part.suffix}"
     amaranth = f"amaranth {version('amaranth')}"
     made_with = [amaranth, *map(str, tools.values())]
-    facts = [sources_hash(constraints), str(board), config.model_dump_json(), seed, *made_with]
+    facts = [
+        sources_hash("flow", further=(constraints,)),
+        str(board),
+        config.model_dump_json(),
+        seed,
+        *made_with,
+    ]
     key = hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:20]
     if (known := _up_to_date(output, key)) is not None:
         return known

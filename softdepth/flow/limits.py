@@ -9,9 +9,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, Field
 
-from softdepth.config import Config
 from softdepth.flow.blocks import LUT4
 from softdepth.flow.synthesis import Netlist, cells, core_netlist
+from softdepth.spec.config import Config
 
 FILE = Path(__file__).with_suffix(".toml")
 

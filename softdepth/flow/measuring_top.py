@@ -4,8 +4,8 @@ from amaranth.hdl import Cat, Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.core import StereoCore
+from softdepth.spec.config import Config
 
 
 class MeasuringTop(wiring.Component):

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from softdepth.boards import Board, Family
+from softdepth.spec.boards import Board, Family
 
 _ICE40 = {"iCE40UP5K": "--up5k"}
 _GOWIN = {"GW2AR-LV18": "GW2A-18C"}

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from softdepth.errors import ConfigError, ToolError
 from softdepth.flow.parts import PLACER, Part
 from softdepth.flow.tools import ToolRunError, find_tool
+from softdepth.spec.errors import ConfigError, ToolError
 
 CLOCK_TOLERANCE = 0.01
 """How far a clock that nextpnr reckons from a PLL's settings may be from the one that is meant."""

@@ -8,7 +8,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-from softdepth.errors import ToolError
+from softdepth.spec.errors import ToolError
 
 SMALLEST_KEPT = 50
 """Cells in a module, submodules included, from which on synthesis of its own pays. Smaller ones are

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from softdepth import screen
-from softdepth.sim.build import cache_folder
+from softdepth.files import cache_folder
 
 
 class Stages:

@@ -10,8 +10,6 @@ from pathlib import Path
 from amaranth.back import rtlil
 from amaranth.lib.wiring import Component
 
-from softdepth.boards import Family
-from softdepth.config import Config
 from softdepth.flow.collisions import waive_collisions
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.multiplier_registers import absorb_multiplier_registers
@@ -19,6 +17,8 @@ from softdepth.flow.netlist import Netlist
 from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
+from softdepth.spec.boards import Family
+from softdepth.spec.config import Config
 
 TOP = "top"
 """The name of every synthesised design."""

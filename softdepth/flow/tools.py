@@ -12,8 +12,8 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-from softdepth.errors import ToolError
-from softdepth.sim.build import cache_folder
+from softdepth.files import cache_folder
+from softdepth.spec.errors import ToolError
 
 VERSION_SECONDS = 60.0
 """How long a program may take to tell its version."""

@@ -15,7 +15,7 @@ import cocotb
 from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, Timer
 
-from softdepth.protocol import FLAG
+from softdepth.spec.protocol import FLAG
 
 PLAN_VARIABLE = "SOFTDEPTH_BOARD_PLAN"
 CLOCK_STEPS = 2

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from softdepth.config import Config
-from softdepth.golden.synthetic import generate
+from softdepth.golden.data.synthetic import generate
+from softdepth.spec.config import Config
 from tests.cli.conftest import Files, softdepth
 
 __all__ = ["softdepth"]

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model
-from softdepth.golden.views import to_core_view
-from softdepth.protocol import (
+from softdepth.golden.front.views import to_core_view
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import (
     COUNTERS,
     FLAG,
     REPLY,

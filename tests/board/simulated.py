@@ -10,13 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from softdepth.boards import BOARDS
-from softdepth.config import Config
 from softdepth.hdl.boards import BoardTop
-from softdepth.hdl.serial.receiver import MIN_DIVISOR
+from softdepth.hdl.boards.serial.receiver import MIN_DIVISOR
 from softdepth.hdl.verilog import to_verilog
 from softdepth.sim.build import TOP, Build, build
 from softdepth.sim.stream import simulate
+from softdepth.spec.boards import BOARDS
+from softdepth.spec.config import Config
 from tests.board.bridge import PLAN_VARIABLE
 
 DIVISOR = MIN_DIVISOR

@@ -9,16 +9,16 @@ import pytest
 from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
-from softdepth.boards import BOARDS, Board
-from softdepth.commands.export import ports
-from softdepth.config import Config
-from softdepth.errors import ConfigError
+from softdepth.cli.export import ports
 from softdepth.hdl.boards import BoardTop
 from softdepth.hdl.boards.lamps import BLINKS_PER_SECOND, Lamps
 from softdepth.hdl.boards.pll import ecp5_divisors, gowin_divisors, ice40_divisors
 from softdepth.hdl.boards.top import line_divisor
 from softdepth.hdl.verilog import to_verilog
-from tests.hdl.support import simulate
+from softdepth.spec.boards import BOARDS, Board
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError
+from tests.support.simulation import simulate
 
 MHZ = 1_000_000
 PINS = re.compile(r'^(?:LOCATE COMP "([^"]+)" SITE|set_io (\S+) |IO_LOC "([^"]+)")', re.MULTILINE)

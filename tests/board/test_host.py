@@ -12,13 +12,13 @@ import pytest
 from softdepth.board.device import Device
 from softdepth.board.link import TRIES, Link
 from softdepth.board.port import Port
-from softdepth.config import Config
-from softdepth.errors import ConfigError, InputError, ToolError
 from softdepth.golden import fixed_model
-from softdepth.golden.images import read_pair
-from softdepth.golden.synthetic import generate
-from softdepth.protocol import Reason, describe
-from softdepth.report import FILES
+from softdepth.golden.data.images import read_pair
+from softdepth.golden.data.synthetic import generate
+from softdepth.run.report import FILES
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError, InputError, ToolError
+from softdepth.spec.protocol import Reason, describe
 from tests.board.fake import FakeBoard, Misdeeds, plugged_in
 from tests.cli.conftest import Files
 

@@ -6,8 +6,8 @@ from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
 from softdepth.hdl.boards.line_store import LineStore
-from softdepth.protocol import PAIR_BYTES
-from tests.hdl.support import config, simulate
+from softdepth.spec.protocol import PAIR_BYTES
+from tests.support.simulation import config, simulate
 
 WIDTH, HEIGHT = 5, 3
 

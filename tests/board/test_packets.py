@@ -8,10 +8,10 @@ import pytest
 from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
-from softdepth.hdl.serial.parser import PacketParser
-from softdepth.hdl.serial.sender import PacketSender
-from softdepth.protocol import ESCAPE, FLAG, Packet, Type, decode, encode
-from tests.hdl.support import simulate
+from softdepth.hdl.boards.serial.parser import PacketParser
+from softdepth.hdl.boards.serial.sender import PacketSender
+from softdepth.spec.protocol import ESCAPE, FLAG, Packet, Type, decode, encode
+from tests.support.simulation import simulate
 
 SPECIAL = bytes([FLAG, ESCAPE, 0, 0x5E, 0x5D, FLAG, FLAG])
 

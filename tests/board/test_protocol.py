@@ -6,8 +6,8 @@ import zlib
 import numpy as np
 import pytest
 
-from softdepth.config import Config
-from softdepth.protocol import ESCAPE, FLAG, Packet, Type, decode, describe, encode, result_bytes
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import ESCAPE, FLAG, Packet, Type, decode, describe, encode, result_bytes
 
 
 def inside(framed: bytes) -> bytes:

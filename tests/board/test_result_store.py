@@ -7,8 +7,8 @@ from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
 from softdepth.hdl.boards.result_store import SLOTS, ResultStore
-from softdepth.protocol import result_bytes
-from tests.hdl.support import config, simulate
+from softdepth.spec.protocol import result_bytes
+from tests.support.simulation import config, simulate
 
 WIDTH = 6
 

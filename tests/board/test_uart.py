@@ -6,9 +6,9 @@ import pytest
 from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
-from softdepth.hdl.serial.receiver import MIN_DIVISOR, UartReceiver
-from softdepth.hdl.serial.transmitter import UartTransmitter
-from tests.hdl.support import simulate
+from softdepth.hdl.boards.serial.receiver import MIN_DIVISOR, UartReceiver
+from softdepth.hdl.boards.serial.transmitter import UartTransmitter
+from tests.support.simulation import simulate
 
 BYTES = (0x00, 0xFF, 0x55, 0xAA, 0x01, 0x80, 0x7E, 0x7D)
 

@@ -10,9 +10,9 @@ import pytest
 from softdepth.board.device import Device
 from softdepth.board.link import Link
 from softdepth.board.port import Port
-from softdepth.config import Config
 from softdepth.golden import fixed_model
-from softdepth.protocol import FLAG, REPLY, SIZE, Packet, Reason, Repeat, Type, decode, encode
+from softdepth.spec.config import Config
+from softdepth.spec.protocol import FLAG, REPLY, SIZE, Packet, Reason, Repeat, Type, decode, encode
 from tests.board.simulated import BOARD, Board, plugged_in
 
 pytestmark = pytest.mark.slow

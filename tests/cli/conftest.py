@@ -9,10 +9,10 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.cli import main
-from softdepth.golden.images import StereoPair, read_image
-from softdepth.golden.synthetic import generate
-from softdepth.golden.writers import write_pfm, write_picture
+from softdepth.cli.app import main
+from softdepth.golden.data.images import StereoPair, read_image
+from softdepth.golden.data.synthetic import generate
+from softdepth.golden.data.writers import write_pfm, write_picture
 
 
 @dataclass(frozen=True)

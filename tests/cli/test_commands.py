@@ -8,11 +8,11 @@ from importlib.metadata import version
 
 import pytest
 
-from softdepth import cli
-from softdepth.commands.info import facts
-from softdepth.config import PRESETS, Config
-from softdepth.golden import datasets
+from softdepth.cli import app as cli
+from softdepth.cli.info import facts
+from softdepth.golden.data import datasets
 from softdepth.hdl.verilog import to_verilog
+from softdepth.spec.config import PRESETS, Config
 
 SMALL = ("--disparities", 4, "--lanes", 2, "--set", "max_width=16")
 
@@ -141,7 +141,8 @@ def test_version_and_help(softdepth):
 
 def test_help_loads_nothing_heavy():
     script = (
-        "import sys; from softdepth.cli import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
+        "import sys; from softdepth.cli.app import main; main(['--help']);"
+        " print(*sys.modules, file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     loaded = {name.partition(".")[0] for name in done.stderr.split()}

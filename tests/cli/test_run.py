@@ -7,11 +7,11 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model, float_model
-from softdepth.golden.images import read_pair
-from softdepth.golden.metrics import evaluate
-from softdepth.golden.truth import read_truth
+from softdepth.golden.data.images import read_pair
+from softdepth.golden.data.truth import read_truth
+from softdepth.golden.score.metrics import evaluate
+from softdepth.spec.config import Config
 
 SMALL = ("--disparities", 16, "--lanes", 4)
 FILES = {"disparity.png", "disparity.pfm", "colour.png", "overview.png", "config.toml", "report.json"}

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from softdepth import measure, report
+from softdepth.run import measure, report
 
 SMALL = ("--disparities", 16, "--lanes", 4, "--engine", "fixed")
 

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from softdepth import measure
 from softdepth.golden.maps import DisparityMap
+from softdepth.run import measure
 
 SMALL = ("--disparities", 4, "--lanes", 4, "--set", "max_width=64", "--preset", "lite")
 

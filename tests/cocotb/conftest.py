@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 import pytest
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model
 from softdepth.sim.compare import mismatches
 from softdepth.sim.frames import FramesResult, Pair, run_frames
 from softdepth.sim.stage import explain
+from softdepth.spec.config import Config
 
 Exact = Callable[..., FramesResult]
 

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from softdepth.config import OPERATORS, Config
-from softdepth.golden.pair import Image
+from softdepth.golden.front.pair import Image
 from softdepth.sim.frames import Pair
+from softdepth.spec.config import OPERATORS, Config
 
 SEEDS = range(24)
 """One random configuration each."""

@@ -7,15 +7,17 @@ from amaranth.hdl import Const, Module, Value
 from amaranth.lib import fifo, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth import rules
-from softdepth.config import Config
-from softdepth.errors import ToolError
-from softdepth.hdl import cell_inference, core, line_buffer, mean_inference, row_memory, rule_array
-from softdepth.hdl.criteria import column_sad
-from softdepth.hdl.pipeline import Pipeline, Word
+from softdepth.hdl import core
+from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
+from softdepth.hdl.arithmetic.wires import flag
+from softdepth.hdl.costs.criteria import column_sad, row_memory
+from softdepth.hdl.costs.fuzzy import cell_inference, mean_inference, rule_array
+from softdepth.hdl.front import line_buffer
 from softdepth.hdl.verilog import to_verilog
-from softdepth.hdl.wires import flag
 from softdepth.sim.stalls import Pauses, Stalls
+from softdepth.spec import rules
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ToolError
 from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import frames_for
 

@@ -5,21 +5,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model
 from softdepth.hdl.verilog import to_verilog
 from softdepth.sim import damage
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Stalls
 from softdepth.sim.stream import StreamResult, run_stream
-from softdepth.sim.transfers import (
-    Payloads,
-    pack_frame,
-    split_frames,
-    to_maps,
-    unpack_results,
-    unpack_status,
-)
+from softdepth.sim.transfers import Payloads, pack_frame, split_frames, to_maps, unpack_results, unpack_status
+from softdepth.spec.config import Config
 from tests.cocotb.scenes import textured
 
 HEIGHT, WIDTH = 14, 33

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from softdepth.config import OPERATORS, Config, Operator
-from softdepth.golden.datasets import load
+from softdepth.golden.data.datasets import load
+from softdepth.spec.config import OPERATORS, Config, Operator
 from tests.cocotb.conftest import Exact
 
 

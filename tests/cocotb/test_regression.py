@@ -2,9 +2,9 @@
 
 import pytest
 
-from softdepth.config import PRESETS, Config
 from softdepth.hdl.verilog import to_verilog
 from softdepth.sim.stalls import Pauses, Stalls
+from softdepth.spec.config import PRESETS, Config
 from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import SEEDS, frames_for, random_config, textured
 

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.golden.datasets import DATA_VARIABLE
+from softdepth.golden.data.datasets import DATA_VARIABLE
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model, float_model
-from softdepth.golden.datasets import load
+from softdepth.golden.data.datasets import load
+from softdepth.spec.config import Config
 
 # The paper counts from one, columns, rows and disparities alike: (254, 68), 62 and 16.
 X, Y, WITHOUT, WITH = 254 - 1, 68 - 1, 62 - 1, 16 - 1

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.config import OPERATORS, Config
 from softdepth.golden import fixed_model, float_model
-from softdepth.golden.synthetic import generate
+from softdepth.golden.data.synthetic import generate
+from softdepth.spec.config import OPERATORS, Config
 
 
 def scene(folder):

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from softdepth.config import OPERATORS, Config
-from softdepth.errors import InputError
 from softdepth.golden import fixed_model
-from softdepth.golden.candidates import bands
-from softdepth.validity import Validity
+from softdepth.golden.costs.candidates import bands
+from softdepth.spec.config import OPERATORS, Config
+from softdepth.spec.errors import InputError
+from softdepth.spec.validity import Validity
 
 SOFT = {"operator": "soft_min_1", "softness": 0.5}  # where a cost may be infinite
 
@@ -98,7 +98,7 @@ def test_bands_do_not_show(monkeypatch):
     left, right = shifted_pair(33, 41, 4)
     right = right // 2 + noise(33, 41, 2) // 2
     whole = fixed_model.disparity(left, right, make())
-    monkeypatch.setattr("softdepth.golden.candidates.BAND_PIXELS", 41 * 4)
+    monkeypatch.setattr("softdepth.golden.costs.candidates.BAND_PIXELS", 41 * 4)
     assert len(list(bands(left, right, make()))) == 7
     assert list(whole.differences(fixed_model.disparity(left, right, make()))) == []
 

@@ -6,8 +6,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from softdepth.config import OPERATORS, Config
 from softdepth.golden import fixed_model
+from softdepth.spec.config import OPERATORS, Config
 
 # Table 1, transcribed from the paper: "31" is A_31, label 3 of criterion 1.
 TABLE_1 = {

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from softdepth.config import Config
-from softdepth.errors import ConfigError, InputError
 from softdepth.golden import fixed_model, float_model
-from softdepth.validity import Validity
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError, InputError
+from softdepth.spec.validity import Validity
 
 OPERATORS = ["min", "prod", "mean", "soft_min_1", "soft_min_2"]
 # Table 1 as printed, row by row: labels of criteria 1, 2, 3.

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from softdepth.config import Config
-from softdepth.errors import ConfigError
 from softdepth.golden.fixed_model import disparity, trace
 from softdepth.golden.maps import DisparityMap
 from softdepth.hdl.core import StereoCore
-from softdepth.validity import Validity
-
-from .support import Transfers, config, pair, sad, stream_through
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.validity import Validity
+from tests.support.simulation import Transfers, config, pair, sad, stream_through
 
 Images = NDArray[np.uint8]
 

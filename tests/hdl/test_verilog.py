@@ -8,11 +8,10 @@ from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import OPERATORS, Config
-from softdepth.hdl.delay import Delay
+from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.verilog import TOP, to_verilog
-
-from .support import config, sad
+from softdepth.spec.config import OPERATORS, Config
+from tests.support.simulation import config, sad
 
 
 def ports(verilog: str, top: str) -> dict[str, tuple[str, int]]:

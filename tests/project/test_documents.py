@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
-from softdepth.cli import app
-from softdepth.config import PRESETS, Compensation, Config, Sad
-from softdepth.report import FILES, Accuracy, Report
+from softdepth.cli.app import app
+from softdepth.run.report import FILES, Accuracy, Report
+from softdepth.spec.config import PRESETS, Compensation, Config, Sad
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 

@@ -14,9 +14,9 @@ from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.stream import Signature
 from amaranth.lib.wiring import In, Out
 
-from softdepth.config import Config
 from softdepth.hdl.signatures import PixelPair, Status, result_layout
 from softdepth.hdl.verilog import to_verilog
+from softdepth.spec.config import Config
 
 Fault = Literal["none", "drops_valid", "changes_payload", "loses_last", "repeats_last", "hangs"]
 

@@ -9,9 +9,9 @@ from uuid import uuid4
 
 import pytest
 
-from softdepth.errors import ToolError
 from softdepth.sim.build import TOP, build
 from softdepth.sim.build_cache import locked
+from softdepth.spec.errors import ToolError
 
 
 @pytest.fixture

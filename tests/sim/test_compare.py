@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from softdepth.errors import InputError
 from softdepth.golden.maps import DisparityMap
 from softdepth.sim.compare import mismatches
+from softdepth.spec.errors import InputError
 
 
 def blank() -> DisparityMap:

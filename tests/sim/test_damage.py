@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from softdepth.errors import InputError
 from softdepth.hdl.signatures import PixelPair
 from softdepth.sim import damage
 from softdepth.sim.transfers import Payloads, pack_frame, unpack_field
+from softdepth.spec.errors import InputError
 
 HEIGHT, WIDTH = 9, 12
 

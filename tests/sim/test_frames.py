@@ -5,12 +5,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from softdepth.config import Config
-from softdepth.errors import InputError, ToolError
 from softdepth.golden import fixed_model
 from softdepth.sim.compare import mismatches
 from softdepth.sim.frames import run_frames
 from softdepth.sim.stalls import Pauses, Stalls
+from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError, ToolError
 
 Pair = tuple[np.ndarray, np.ndarray]
 DesignOf = Callable[..., str]

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from softdepth.config import Config
 from softdepth.golden import fixed_model
+from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.pair import Image
 from softdepth.sim.stage import explain
-from softdepth.validity import Validity
+from softdepth.spec.config import Config
+from softdepth.spec.validity import Validity
 
 CONFIG = Config.preset("paper").override(
     [

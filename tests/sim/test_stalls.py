@@ -4,8 +4,8 @@ from itertools import groupby, islice
 
 import pytest
 
-from softdepth.errors import ConfigError
 from softdepth.sim.stalls import Mode, Pauses, Stalls
+from softdepth.spec.errors import ConfigError
 
 CLOCKS = 50_000
 

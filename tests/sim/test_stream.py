@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softdepth.config import Config
-from softdepth.errors import ToolError
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Pauses, Stalls
 from softdepth.sim.stream import StreamResult, run_stream
 from softdepth.sim.transfers import Payloads, pack_frame, unpack_results, unpack_status
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ToolError
 
 LINES, WIDTH = 9, 12
 PIXELS = LINES * WIDTH

@@ -7,8 +7,8 @@ from pathlib import Path
 import find_libpython
 import pytest
 
-from softdepth.errors import ToolError
 from softdepth.sim.toolchain import DEBIAN_PACKAGES, find_toolchain
+from softdepth.spec.errors import ToolError
 
 
 @pytest.fixture

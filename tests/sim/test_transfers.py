@@ -3,17 +3,10 @@
 import numpy as np
 import pytest
 
-from softdepth.config import Config
-from softdepth.errors import InputError, ToolError
 from softdepth.hdl.signatures import PixelPair, Status, result_layout
-from softdepth.sim.transfers import (
-    RESULT,
-    pack_frame,
-    split_frames,
-    to_maps,
-    unpack_results,
-    unpack_status,
-)
+from softdepth.sim.transfers import RESULT, pack_frame, split_frames, to_maps, unpack_results, unpack_status
+from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError, ToolError
 
 HEIGHT, WIDTH = 9, 12
 

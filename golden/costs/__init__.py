@@ -1,0 +1,1 @@
+"""Criteria, then one cost a candidate."""

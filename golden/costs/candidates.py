@@ -1,0 +1,76 @@
+"""Every candidate of every pixel, in bands of rows that stay in a processor's cache."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from softdepth.golden.costs.criteria import Values, evaluate
+from softdepth.golden.costs.sad import Planes
+from softdepth.golden.front.pair import Image
+from softdepth.spec.config import Config
+
+BAND_PIXELS = 16384
+"""Pixels of a band. The models hold some thirty numbers a pixel: this many fit a level-2 cache."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """Consecutive rows of the pixels that have a result, with the image blocks of their support.
+
+    Members
+    -------
+    rows, columns : the pixels' place in the frame.
+    left, right : channels x (rows + 2*reach_rows) x width of the frame.
+    """
+
+    config: Config
+    rows: slice
+    columns: slice
+    left: Planes
+    right: Planes
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns with a result."""
+        return self.rows.stop - self.rows.start, self.columns.stop - self.columns.start
+
+    def candidates(self) -> Iterator[tuple[int, list[Values]]]:
+        """Each candidate d, ascending, with its criteria.
+
+        Criteria are rows x (columns - d): candidate d is excluded in the first d columns, where its
+        window would leave the other image. Candidates that no pixel has do not occur.
+        """
+        _, columns = self.shape
+        width = self.left.shape[2]
+        for d in range(min(self.config.disparities, columns)):
+            yield d, evaluate(self.config, self.left[:, :, d:], self.right[:, :, : width - d])
+
+
+def bands(left: Image, right: Image, config: Config) -> Iterator[Band]:
+    """The pixels with a result, top to bottom; none when the image is smaller than the support."""
+    height, width, _ = left.shape
+    first, stop = config.reach_rows, height - config.reach_rows
+    step = max(1, BAND_PIXELS // width)
+    if width > config.reach_left + config.reach_right:
+        for y in range(first, stop, step):
+            yield band(left, right, config, y, min(y + step, stop))
+
+
+def band(left: Image, right: Image, config: Config, first: int, stop: int) -> Band:
+    """The band of rows ``first .. stop - 1``, all of them within the border."""
+    height, width, _ = left.shape
+    assert config.reach_rows <= first < stop <= height - config.reach_rows
+    assert width > config.reach_left + config.reach_right
+    support = slice(first - config.reach_rows, stop + config.reach_rows)
+    return Band(
+        config,
+        slice(first, stop),
+        slice(config.reach_left, width - config.reach_right),
+        _planes(left[support]),
+        _planes(right[support]),
+    )
+
+
+def _planes(block: Image) -> Planes:
+    return np.ascontiguousarray(block.transpose(2, 0, 1))

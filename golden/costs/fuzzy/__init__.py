@@ -1,0 +1,1 @@
+"""The fuzzy cost: memberships, rules and operators."""

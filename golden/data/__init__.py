@@ -1,0 +1,1 @@
+"""Images, ground truth and data sets, in and out."""

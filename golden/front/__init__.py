@@ -1,0 +1,1 @@
+"""Pairs, views and borders."""

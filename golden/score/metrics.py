@@ -1,0 +1,123 @@
+"""How far a disparity map is from the truth: the field's metrics, and the paper's."""
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from softdepth.golden.data.images import size_text
+from softdepth.golden.data.truth import GRAY_PER_PIXEL, Truth
+from softdepth.spec.errors import InputError
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Errors over one set of pixels, all of known disparity.
+
+    Parameters
+    ----------
+    bad1, bad2 : per cent of the pixels that are off by more than 1 and 2 px, or have no result.
+    mae, rmse : mean absolute and root mean square error, in pixels; no result counts as disparity 0.
+    """
+
+    bad1: float
+    bad2: float
+    mae: float
+    rmse: float
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """A disparity map's scores.
+
+    Parameters
+    ----------
+    known : over every pixel of known disparity.
+    nonocc : over those that both views see; None where the truth does not tell them.
+    measured : over those that have a result; None where there is none.
+    paper_rmse : the paper's RMSE (eq. 1), in gray levels; see `paper_rmse`.
+    density : per cent of all pixels that have a result.
+    """
+
+    known: Errors
+    nonocc: Errors | None
+    measured: Errors | None
+    paper_rmse: float
+    density: float
+
+    def as_dict(self) -> dict[str, float | None]:
+        """Plain numbers under stable keys: ``bad1`` .. ``rmse`` over every known pixel, the same four
+        with ``nonocc_`` and ``measured_``, then ``paper_rmse`` and ``density``."""
+        flat: dict[str, float | None] = dict(asdict(self.known))
+        for name, errors in (("nonocc", self.nonocc), ("measured", self.measured)):
+            for key in asdict(self.known):
+                flat[f"{name}_{key}"] = None if errors is None else getattr(errors, key)
+        return {**flat, "paper_rmse": self.paper_rmse, "density": self.density}
+
+
+def evaluate(disparity: np.ndarray, truth: Truth, *, valid: np.ndarray | None = None) -> Metrics:
+    """Score a map of disparities, in pixels, against the truth of the same view.
+
+    A pixel that is not `valid` (bool H x W, default: all are), or not finite, has no result. It
+    stays in every figure but ``measured``, as disparity 0 and as bad: no core scores better by not
+    answering, and a border costs what it hides.
+
+    Raises
+    ------
+    InputError : shapes that differ, or a truth without a known pixel.
+    """
+    disparity, valid = _prepare(disparity, valid, truth.disparity)
+    known = truth.known
+    if not known.any():
+        raise InputError("the truth holds no known disparity", "give one that does")
+    error = np.abs(disparity - np.where(known, truth.disparity, 0).astype(np.float64))
+
+    def over(pixels: np.ndarray) -> Errors | None:
+        if not pixels.any():
+            return None
+        e, lost = error[pixels], ~valid[pixels]
+        bad1, bad2 = (float(100 * np.mean((e > limit) | lost)) for limit in (1, 2))
+        return Errors(bad1, bad2, float(e.mean()), float(np.sqrt(np.mean(e**2))))
+
+    everywhere = over(known)
+    assert everywhere is not None
+    return Metrics(
+        known=everywhere,
+        nonocc=None if truth.nonoccluded is None else over(known & truth.nonoccluded),
+        measured=over(known & valid),
+        paper_rmse=paper_rmse(disparity, truth.gray, valid=valid),
+        density=float(100 * valid.mean()),
+    )
+
+
+def paper_rmse(
+    disparity: np.ndarray, gray: np.ndarray, *, valid: np.ndarray | None = None, first: int = 0
+) -> float:
+    """The paper's RMSE (Bobyr et al. 2021, eq. 1) between gray pictures.
+
+    The map is drawn as the paper draws it: ``4 * (d + first)`` in a byte, so 64 wraps round to 0
+    (`first` = 1 numbers the candidates from one); no result is 0. Every pixel counts, those of
+    unknown truth as gray 0. So a perfect map does not score 0: for Venus, whose truth has 8 gray
+    levels per pixel, it scores 39.
+
+    Raises
+    ------
+    InputError : shapes that differ.
+    """
+    disparity, valid = _prepare(disparity, valid, gray)
+    drawn = np.where(valid, np.rint(GRAY_PER_PIXEL * (disparity + first)) % 256, 0)
+    return float(np.sqrt(np.mean((drawn - gray.astype(np.float64)) ** 2)))
+
+
+def _prepare(
+    disparity: np.ndarray, valid: np.ndarray | None, truth: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Disparities as float64 with 0 where there is no result, and where there is one."""
+    for what, array in (("truth", truth), ("valid mask", disparity if valid is None else valid)):
+        if array.shape != disparity.shape or disparity.ndim != 2:
+            raise InputError(
+                f"the disparity map is {size_text(disparity)}, but the {what} is {size_text(array)}",
+                "score a map against the truth of the same images",
+            )
+    disparity = disparity.astype(np.float64)
+    valid = np.isfinite(disparity) if valid is None else valid.astype(bool) & np.isfinite(disparity)
+    return np.where(valid, disparity, 0), valid

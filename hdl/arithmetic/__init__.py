@@ -1,0 +1,1 @@
+"""Pipelined arithmetic that keeps its widths and time."""

@@ -1,0 +1,1 @@
+"""Lanes: criteria, then one cost a candidate."""

@@ -1,0 +1,92 @@
+"""What a candidate costs, given its criteria: the fuzzy inference, or the plain SAD."""
+
+from amaranth.hdl import Module, unsigned
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.costs.criteria import criteria_layout
+from softdepth.hdl.costs.fuzzy.cell_inference import CellInference
+from softdepth.hdl.costs.fuzzy.cell_mean_inference import CellMeanInference
+from softdepth.hdl.costs.fuzzy.compensation import Compensation
+from softdepth.hdl.costs.fuzzy.inference import RuleInference
+from softdepth.hdl.costs.fuzzy.mean_inference import MeanInference
+from softdepth.spec.config import Config
+
+
+def fraction_layout(config: Config) -> data.StructLayout:
+    """A candidate's cost ``num / den``; a plain number has no ``den``, which then is 1."""
+    (low, high), (_, den_high) = config.cost_range
+    den = range(den_high + 1) if config.cost == "fuzzy" else unsigned(0)
+    return data.StructLayout({"num": range(low, high + 1), "den": den})
+
+
+def _ports(config: Config) -> dict[str, wiring.Member]:
+    criteria = criteria_layout(c.maximum for c in config.criteria)
+    return {"near": In(1), "i": In(criteria), "o": Out(fraction_layout(config))}
+
+
+class FuzzyCost(wiring.Component):
+    """Fuzzy inference over three criteria, one candidate a clock (Bobyr et al. 2021, steps 2 to 4).
+
+    Members
+    -------
+    near : the candidate's disparity lies within the compensating rule's bound.
+    i : its criteria.
+    o : its cost, ``latency`` clocks later; 0 is the best match.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._compensation = Compensation(config)
+        self._inference = inference_of(config)(config, self._compensation.maxima)
+        self.latency = self._compensation.latency + self._inference.latency
+        super().__init__(_ports(config))
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.compensation = self._compensation
+        m.submodules.inference = self._inference
+        m.d.comb += [
+            self._compensation.near.eq(self.near),
+            self._compensation.i.eq(self.i),
+            self._inference.i.eq(self._compensation.o),
+            self.o.num.eq(self._inference.num),
+            self.o.den.eq(self._inference.den),
+        ]
+        return m
+
+
+def inference_of(
+    config: Config,
+) -> type[CellInference] | type[CellMeanInference] | type[MeanInference] | type[RuleInference]:
+    """The smallest component that computes what is configured."""
+    match config.operator, config.rules, config.by_cell:
+        case "mean", "printed", False:
+            return MeanInference
+        case "mean", "corrected", True:
+            return CellMeanInference
+        case _, _, True:
+            return CellInference
+        case _:
+            return RuleInference
+
+
+class SadCost(wiring.Component):
+    """The first criterion itself as the cost (eq. 8): the baseline. Wires only.
+
+    Members are those of `FuzzyCost`.
+    """
+
+    latency = 0
+
+    def __init__(self, config: Config) -> None:
+        super().__init__(_ports(config))
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.d.comb += self.o.num.eq(self.i.s0)
+        return m
+
+
+COSTS = {"fuzzy": FuzzyCost, "sad": SadCost}
+"""The component behind each value of `Config.cost`."""

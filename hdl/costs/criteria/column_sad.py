@@ -1,0 +1,204 @@
+"""The absolute differences of one column, summed for each window height."""
+
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from amaranth.hdl import Const, Module, Value
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.adders import Field, add_fields
+from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD, RowMemory
+from softdepth.spec.config import CHANNEL_BITS, CHANNELS
+
+CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
+ROW_OPERATIONS = 3
+"""Operations of a row's cost: differences, red and green, blue."""
+STORED_READY = (RowMemory.latency - LOOKUP_AHEAD) * LEVELS
+"""When the costs from memory are there, in operations after the columns."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """``a - b - 1`` of two unsigned words, without its sign, and the sign: 1 where ``a > b``."""
+
+    word: Word
+    sign: Word
+
+    def magnitude(self, pipeline: Pipeline, time: int) -> Word:
+        """``|a - b| - sign``: the difference, or its one's complement, at ``time``."""
+        word, sign = pipeline.at(self.word, time), pipeline.at(self.sign, time)
+        return replace(word, value=~(word.value ^ sign.value.replicate(CHANNEL_BITS)))
+
+    def complement(self) -> Word:
+        """The one's complement of `magnitude`, when the difference is computed."""
+        return replace(self.word, value=self.word.value ^ self.sign.value.replicate(CHANNEL_BITS))
+
+
+@dataclass(frozen=True)
+class Summand:
+    """A word to be summed, and the 1 that may be missing from it: the carry of an adder to come."""
+
+    word: Word
+    missing: Word | None = None
+
+
+class ColumnSad(wiring.Component):
+    """Sums a column's absolute RGB differences over each window's height, one column a clock.
+
+    ``|a - b|`` is ``a - b`` or its negation, which is one's complement and a 1. The complement is
+    taken at the input of the adder that follows, and the 1 is that adder's carry, so that an absolute
+    difference costs one subtraction. A row whose last 1 no adder takes computes a difference in full.
+
+    Parameters
+    ----------
+    windows : window heights in ascending order, all odd.
+    stored_rows : rows whose costs come from memory. They are the upper ones: each was computed when
+        it was lower in the column.
+    places : columns of the longest line, times candidates of a pixel.
+
+    Members
+    -------
+    valid, place : a column comes in `LOOKUP_AHEAD` clocks, and which of the line's, candidates counted
+        apart.
+    left, right : the columns to compare, top first, without the stored rows.
+    o : ``c3, c5, ...``: the cost of the middle 3, 5, ... rows, `latency` clocks later.
+    """
+
+    def __init__(self, windows: Sequence[int], stored_rows: int = 0, places: int = 1) -> None:
+        self._windows = windows
+        self._stored = stored_rows
+        self._places = places
+        # The rows from memory come at a fixed clock, and the computed ones with them. Without any, the
+        # first operation is as late as it can be for the last to end in a register.
+        sums = _sum_operations(windows)
+        ready = STORED_READY if stored_rows else start(ROW_OPERATIONS + sums) + ROW_OPERATIONS
+        self._begin = ready - ROW_OPERATIONS
+        self.latency = clocks(ready + sums)
+        column = data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), windows[-1] - stored_rows)
+        costs = {f"c{w}": range(column_maximum(w) + 1) for w in windows}
+        super().__init__(
+            {
+                "valid": In(1),
+                "place": In(range(places)),
+                "left": In(column),
+                "right": In(column),
+                "o": Out(data.StructLayout(costs)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        pipeline = Pipeline(m)
+        rows = self._rows(m, pipeline)
+        total: Summand | None = None
+        inner = -1  # the largest row offset that is summed already
+        for window in self._windows:
+            radius = window // 2
+            ring = pipeline.tree(
+                lambda a, b: _add(pipeline, a, b),
+                [row for offset, row in rows.items() if inner < abs(offset) <= radius],
+            )
+            inner = radius
+            total = _add(pipeline, total, ring) if total else ring
+            assert total.missing is None
+            cost = pipeline.at(total.word, self.latency * LEVELS)
+            m.d.comb += self.o[f"c{window}"].eq(cost.value)
+        return m
+
+    def _rows(self, m: Module, pipeline: Pipeline) -> dict[int, Summand]:
+        """The cost of each row, by its offset from the middle."""
+        radius = self._windows[-1] // 2
+        newest = self._stored - radius  # of the rows that are remembered: the uppermost computed one
+        offsets = range(newest, radius + 1)
+        # What is remembered must be complete, and so must one row of the innermost window.
+        innermost = self._windows[0] // 2
+        complete = {newest} if self._stored else set()
+        if newest < -innermost or not complete:
+            complete.add(-innermost)
+        pixels = {o: (self.left[k], self.right[k]) for k, o in enumerate(offsets)}
+        rows = _row_costs(pipeline, self._begin, pixels, complete)
+        if self._stored:
+            shape = range(column_maximum(1) + 1)
+            m.submodules.memory = memory = RowMemory(shape, self._stored, self._places)
+            time = STORED_READY
+            m.d.comb += [
+                memory.valid.eq(self.valid),
+                memory.place.eq(self.place),
+                memory.newest.eq(pipeline.at(rows[newest].word, time).value),
+            ]
+            for k, offset in enumerate(range(-radius, newest)):
+                rows[offset] = Summand(pipeline.input(memory.rows[k], column_maximum(1), time=time))
+        return rows
+
+
+def column_maximum(window: int) -> int:
+    """The largest cost of a column as high as ``window``."""
+    return window * CHANNELS * CHANNEL_MAXIMUM
+
+
+def _sum_operations(windows: Sequence[int]) -> int:
+    """Operations in a row from the costs of the rows to those of the column."""
+    operations, inner = 0, 0
+    for window in windows:
+        ring = tree_latency(window - inner)
+        operations = max(operations, ring) + 1 if inner else ring
+        inner = window
+    return operations
+
+
+def _row_costs(
+    pipeline: Pipeline, time: int, pixels: Mapping[int, tuple[Value, Value]], complete: Container[int]
+) -> dict[int, Summand]:
+    """The cost of each row of pixels. Those that must be ``complete`` lack no 1."""
+    rows = {offset: _differences(pipeline, time, *pair) for offset, pair in pixels.items()}
+    # Two inverted operands do not fit into a carry cell of ECP5, two complements of them do: the
+    # complement of x + y + carry is the sum of their complements and the carry's.
+    first = {(offset, 0): _complement(red, green) for offset, (red, green, _) in rows.items()}
+    first |= {(offset, 1): _complement(row[2]) for offset, row in rows.items() if offset in complete}
+    sums = {
+        key: replace(word, value=~word.value, maximum=2 * CHANNEL_MAXIMUM)
+        for key, word in zip(first, add_fields(pipeline, list(first.values())), strict=True)
+    }
+    second = []
+    for offset, (_, green, blue) in rows.items():
+        pair = sums[offset, 0]
+        whole = sums.get((offset, 1), blue.magnitude(pipeline, pair.time))
+        second.append(Field(pair, whole, pipeline.at(green.sign, pair.time)))
+    return {
+        offset: Summand(
+            replace(word, maximum=column_maximum(1)),
+            None if offset in complete else rows[offset][2].sign,
+        )
+        for offset, word in zip(rows, add_fields(pipeline, second), strict=True)
+    }
+
+
+def _differences(pipeline: Pipeline, time: int, left: Value, right: Value) -> list[Difference]:
+    """The differences of a pixel's channels, by one adder with a guard bit above each."""
+    fields = [
+        Field(*(pipeline.input(value, CHANNEL_MAXIMUM, time=time) for value in (left[c], ~right[c])))
+        for c in range(CHANNELS)
+    ]
+    return [
+        Difference(
+            Word(word.value[:CHANNEL_BITS], 0, CHANNEL_MAXIMUM, word.time),
+            Word(word.value[CHANNEL_BITS], 0, 1, word.time),
+        )
+        for word in add_fields(pipeline, fields)
+    ]
+
+
+def _complement(a: Difference, b: Difference | None = None) -> Field:
+    """The one's complement of ``a + b`` but for the 1 that is missing from b; of ``a`` alone, whole."""
+    other = b.complement() if b else replace(a.word, value=Const(CHANNEL_MAXIMUM, CHANNEL_BITS))
+    return Field(a.complement(), other, replace(a.sign, value=~a.sign.value))
+
+
+def _add(pipeline: Pipeline, a: Summand, b: Summand) -> Summand:
+    """Their sum: what is missing from one of them comes in as its carry."""
+    if a.missing is None:
+        a, b = b, a
+    (word,) = add_fields(pipeline, [Field(a.word, b.word, a.missing)])
+    return Summand(word, b.missing)

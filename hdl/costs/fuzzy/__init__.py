@@ -1,0 +1,1 @@
+"""The fuzzy cost: criteria to a fraction."""

@@ -1,0 +1,120 @@
+"""Fuzzy inference over the rules of a cell: from the criteria of a candidate to its cost as a fraction."""
+
+from amaranth.hdl import Cat, Const, Module, Mux, Value
+from amaranth.lib import wiring
+
+from softdepth.hdl.arithmetic.adders import Field, add_fields, add_with_carry
+from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start
+from softdepth.hdl.arithmetic.wires import choose, constant, flag, inverted, masked
+from softdepth.hdl.costs.fuzzy.cell_rules import joins_corners
+from softdepth.hdl.costs.fuzzy.inference import inference_ports, position
+from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS
+from softdepth.hdl.costs.fuzzy.operators.cell import Position
+from softdepth.spec.config import Config
+
+SUM_OPERATIONS = 5
+"""Operations in a row from the firing strengths to the numerator."""
+
+
+class CellInference(wiring.Component):
+    """Any operator over the eight rules whose labels are next to the criteria (Bobyr et al. 2021, step 3).
+
+    A criterion lies between two labels, T and one on either side of it, and their memberships sum to 1.
+    Let b and c be those of criteria 2 and 3 in their upper label, and z that of criterion 1 in its
+    outer one. The eight rules are three conclusions for each of criterion 1's labels::
+
+        P_0 = Theta(1 - b, 1 - c)
+        P_1 = max(Theta(b, 1 - c), Theta(1 - b, c))
+        P_2 = Theta(b, c)
+        F_j = Theta(z, P_j), G_j = Theta(1 - z, P_j)
+
+    The weight of ``G_j`` is ``e + j - 1``, with e the number of criteria 2 and 3 above T, less 1; that of
+    ``F_j`` is 3 more where criterion 1 is above T, and 3 less below::
+
+        den = sum of F + sum of G
+        num = F_2 - F_0 + G_2 - G_0 + e den +- 3 sum of F
+
+    The printed table joins corners of some cells to ``P_1`` (`joins_corners`): then the larger of both
+    fires in ``F_1`` or ``G_1``, and the corner does not.
+
+    Members are those of `RuleInference`. One candidate a clock.
+    """
+
+    def __init__(self, config: Config, maxima: list[int]) -> None:
+        self._config = config
+        self._joins = joins_corners(config.rules)
+        self._operator = CELL_OPERATORS[config.operator](config)
+        self._operations = (
+            1 + self._operator.corner_operations + self._operator.fire_operations + SUM_OPERATIONS
+        )
+        self._start = start(self._operations)
+        self.latency = clocks(self._operations)
+        super().__init__(inference_ports(config, maxima))
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        pipe = Pipeline(m)
+        a, a_above = self._position(pipe)
+        (b, b_above), (c, c_above) = (self._upper(pipe, i) for i in (1, 2))
+
+        ready = self._start + 1 + self._operator.corner_operations
+        pairs = [pipe.at(pair, ready) for pair in self._operator.corners(pipe, b, c)]
+        a = Position(pipe.at(a.outer, ready), pipe.at(a.middle, ready))
+        (f0, f1, f2), (g0, g1, g2) = zip(*(self._operator.fire(pipe, a, pair) for pair in pairs), strict=True)
+        both = flag(pipe, lambda b, c: b & c, b_above, c_above)
+        neither = flag(pipe, lambda b, c: ~b & ~c, b_above, c_above)
+        if self._joins:
+            # The larger pair is found once, and then whose strengths count.
+            corner = choose(pipe, pipe.at(b_above, ready), pairs[2], pairs[0])
+            larger = flag(pipe, lambda v: ~v[-1], pipe.add(corner, inverted(pipe, pairs[1])))
+            in_f = flag(pipe, lambda above, n: above & n, a_above, neither)
+            f1 = choose(pipe, flag(pipe, lambda x, y: x & y, in_f, larger), f0, f1)
+            f0 = masked(pipe, f0, in_f, keep=0)
+            g1 = choose(pipe, flag(pipe, lambda x, y: x & y, both, larger), g2, g1)
+            g2 = masked(pipe, g2, both, keep=0)
+
+        low, high = self._config.strength_range
+        f = pipe.add(pipe.add(f0, f1), f2)
+        g = pipe.add(g1, g2)
+        # A carry of 0: without it, synthesis makes one sum of three operands, which takes more logic.
+        den = pipe.add(f, add_with_carry(pipe, g, g0, constant(0, g), 3 * low, 3 * high))
+        # What complements lack: 1 in f2 - f0, and none in g2 - g0, which is one of a complement.
+        f_rise = pipe.add(f2, inverted(pipe, f0))
+        g_fall = pipe.add(g0, inverted(pipe, g2))
+        one = constant(1, f_rise)
+        num = add_with_carry(pipe, f_rise, inverted(pipe, g_fall), one, -6 * high, 6 * high)
+        e_den = choose(pipe, both, den, choose(pipe, neither, inverted(pipe, den), constant(0, den)))
+        num = add_with_carry(pipe, num, e_den, neither, -6 * high, 6 * high)
+        f_3 = pipe.at(pipe.add(f, pipe.shifted(f, 1)), num.time)
+        a_below = flag(pipe, lambda above: ~above, a_above)
+        f_3 = choose(pipe, a_above, f_3, inverted(pipe, f_3))
+        num = add_with_carry(pipe, num, f_3, a_below, *self._config.cost_range[0])
+        den = pipe.within(pipe.at(den, num.time), *self._config.cost_range[1])
+        assert num.time == self._start + self._operations
+        m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
+        return m
+
+    def _upper(self, pipe: Pipeline, i: int) -> tuple[Word, Word]:
+        """A criterion's membership in the upper of its two labels, and whether it is above T."""
+        fraction, above, limited = position(self._config, self.i, i)
+        upper = Cat(Mux(limited, 0, fraction), limited)
+        return (
+            pipe.result(upper, 0, self._config.one, self._start),
+            pipe.result(above | limited, 0, 1, self._start),
+        )
+
+    def _position(self, pipe: Pipeline) -> tuple[Position, Word]:
+        """Criterion 1's memberships in its outer label and the middle one, and whether it is above T."""
+        fraction, above, limited = position(self._config, self.i, 0)
+        above = above | limited
+        fraction = fraction | limited.replicate(len(fraction))
+        none = pipe.input(Const(0, len(fraction)), 0, time=self._start)
+
+        def membership(bits: Value, carry: Value) -> Word:
+            word = pipe.input(bits, self._config.one - 1, time=self._start)
+            return add_fields(pipe, [Field(word, none, pipe.input(carry, 1, time=self._start))])[0]
+
+        inverse = above.replicate(len(fraction))
+        outer = membership(fraction ^ ~inverse, ~above | limited)
+        middle = membership(fraction ^ inverse, above & ~limited)
+        return Position(outer, middle), pipe.result(above, 0, 1, self._start)

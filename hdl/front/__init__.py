@@ -1,0 +1,1 @@
+"""Frames in, the columns that lanes compare out."""

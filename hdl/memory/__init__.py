@@ -1,0 +1,1 @@
+"""Delays and memories that map well to block RAM."""

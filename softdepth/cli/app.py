@@ -1,0 +1,69 @@
+"""The command line. `main` turns every problem of the user's into one line and an exit code."""
+
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+from typer.exceptions import TyperException
+
+from softdepth.cli import bench, board, build, compare, export, info, listing, paper, run, utilization
+from softdepth.spec.errors import SoftdepthError
+
+EXIT_MISMATCH = run.EXIT_MISMATCH
+"""The gateware and the fixed model disagree."""
+EXIT_ERROR = 2
+"""The command could not be carried out."""
+EXIT_INTERRUPTED = 130
+"""Stopped with Ctrl-C."""
+
+app = typer.Typer(
+    name="softdepth",
+    help="Stereo depth for FPGAs by fuzzy inference: run it, measure it, export it as Verilog.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+app.command("run")(run.run)
+app.command("board")(board.board)
+app.command("compare")(compare.compare)
+app.command("export")(export.export)
+app.command("build")(build.build)
+app.command("utilization")(utilization.utilization)
+app.command("info")(info.info)
+app.command("presets")(listing.presets)
+app.command("datasets")(listing.datasets)
+app.command("bench")(bench.bench)
+app.command("paper")(paper.paper)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"softdepth {version('softdepth')}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _common(
+    context: typer.Context,
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line (default: the process's arguments) and return its exit code."""
+    try:
+        return app(arguments, standalone_mode=False) or 0
+    except SoftdepthError as error:
+        message = str(error)
+    except TyperException as error:
+        message = f"{error.format_message().rstrip('.')}; see softdepth --help"
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    print(f"error: {message}", file=sys.stderr)
+    return EXIT_ERROR

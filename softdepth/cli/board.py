@@ -1,0 +1,82 @@
+"""``softdepth board``: a stereo pair to depth on an FPGA board, measured."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from softdepth import screen
+from softdepth.cli import options, pairs, run
+from softdepth.spec.boards import BOARDS, find_board
+from softdepth.spec.errors import InputError
+
+DEFAULT_BOARD = "ulx3s-85f"
+
+
+def board(
+    port: Annotated[str, typer.Option("--port", metavar="PORT", help="Serial port, e.g. /dev/ttyUSB0.")],
+    left: pairs.Left = None,
+    right: pairs.Right = None,
+    dataset: pairs.Dataset = None,
+    truth: pairs.GroundTruth = None,
+    truth_scale: pairs.GroundTruthScale = None,
+    name: Annotated[
+        str, typer.Option("--board", metavar="NAME", help=f"One of {', '.join(BOARDS)}: for the baud rate.")
+    ] = DEFAULT_BOARD,
+    baud: Annotated[
+        int | None, typer.Option("--baud", metavar="N", help="Bits per second, where not the board's own.")
+    ] = None,
+    timeout: Annotated[
+        float,
+        typer.Option("--timeout", metavar="S", help="Seconds without an answer before packets are repeated."),
+    ] = 0.5,
+    preset: options.Preset = None,
+    config: options.ConfigFile = None,
+    assignments: options.Assignments = None,
+    lanes: options.Lanes = None,
+    disparities: options.Disparities = None,
+    operator: options.Operator = None,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of pictures, maps and report.")
+    ] = Path("out"),
+) -> None:
+    """Compute the depth of a stereo pair on a board, and compare it with the models.
+
+    The configuration is the board's; where one is given, the board has to hold it.
+    """
+    rate = find_board(name).baud if baud is None else baud
+    if rate <= 0:
+        raise InputError(f"--baud {rate} is no rate", "give bits per second, for example 2000000")
+    if not 0 < timeout < float("inf"):
+        raise InputError(f"--timeout {timeout:g} is no time", "give seconds, for example 0.5")
+    given = any(
+        value is not None for value in (preset, config, assignments or None, lanes, disparities, operator)
+    )
+    wanted = (
+        options.configuration(
+            preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
+        )
+        if given
+        else None
+    )
+    from softdepth import files as results
+    from softdepth.board.device import Device
+    from softdepth.board.link import Link
+    from softdepth.board.port import Port
+    from softdepth.run import measure, report
+
+    with Port(port, rate) as line:
+        device = Device(Link(line, timeout))
+        found = device.description
+        if wanted is not None:
+            device.check(wanted)
+        chosen = found.config
+        screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
+        pair = pairs.read(left, right, dataset, truth, truth_scale, chosen, built=True)
+        with results.result_folder(output, stale=report.FILES) as folder:
+            measurement = measure.measure(pair, chosen, "board", device)
+            summary = report.summarise(pair, chosen, measurement)
+            report.write(folder, pair, chosen, measurement, summary)
+    report.show(summary)
+    print(f"results: {output}")
+    run.fail_on_mismatch(pair, chosen, measurement)

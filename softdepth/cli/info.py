@@ -1,0 +1,102 @@
+"""``softdepth info``: what a configuration amounts to, before anything is built."""
+
+import gc
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from softdepth import screen
+from softdepth.cli import options
+from softdepth.spec.config import MULTIPLIER_BITS, Config
+from softdepth.spec.errors import InputError
+
+
+def info(
+    preset: options.Preset = None,
+    config: options.ConfigFile = None,
+    assignments: options.Assignments = None,
+    lanes: options.Lanes = None,
+    disparities: options.Disparities = None,
+    operator: options.Operator = None,
+    clock: Annotated[
+        float, typer.Option("--clock", metavar="MHZ", help="Clock frequency that your device reaches.")
+    ] = 100.0,
+    width: Annotated[int, typer.Option("--width", metavar="N", help="Columns of a frame.")] = 640,
+    height: Annotated[int, typer.Option("--height", metavar="N", help="Rows of a frame.")] = 480,
+) -> None:
+    """Show widths, latency, memory and speed of a configuration."""
+    chosen = options.configuration(
+        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
+    )
+    _check(chosen, clock, width, height)
+    table = Table("", "", box=None, show_header=False, title=f"{chosen.name} ({chosen.hash})")
+    table.title_justify = "left"
+    for row in facts(chosen, clock, width, height).items():
+        table.add_row(*row)
+    screen.console().print(table)
+
+
+def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
+    """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
+    from softdepth.hdl.core import StereoCore
+    from softdepth.hdl.signatures import PixelPair, result_layout
+
+    with _asked():
+        latency = StereoCore(config).latency
+    line_bits, row_bits = memory_bits(config)
+    cycles = width * height * config.steps
+    return {
+        "candidates": f"{config.disparities}, {config.lanes} per clock",
+        "clocks per pixel": str(config.steps),
+        "smallest frame": f"{config.min_width} x {config.min_height} pixels",
+        "disparity": f"{config.disparity_bits} bits",
+        "input payload": f"{PixelPair.size} bits",
+        "output payload": f"{result_layout(config).size} bits",
+        "latency": f"{latency} clocks after the last pixel of its window",
+        "line buffer": f"{line_bits} bits, {config.column_rows - 1} lines of {config.max_width} pixel pairs",
+        "row memories": f"{row_bits} bits, {config.stored_rows} rows of {config.places} costs in each lane",
+        "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
+        "clocks per frame": f"{cycles} at {width}x{height}",
+        "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
+    }
+
+
+def memory_bits(config: Config) -> tuple[int, int]:
+    """Bits of the core's line buffer, and of the row memories of all its lanes."""
+    from softdepth.hdl.costs.criteria.column_sad import column_maximum
+    from softdepth.hdl.costs.criteria.row_memory import RowMemory
+    from softdepth.hdl.front.line_buffer import LineBuffer
+    from softdepth.hdl.signatures import PIXEL_BITS
+
+    with _asked():
+        lines = LineBuffer(2 * PIXEL_BITS, config.column_rows, config.max_width).bits
+        rows = RowMemory(range(column_maximum(1) + 1), config.stored_rows, config.places).bits
+    return lines, config.lanes * rows
+
+
+@contextmanager
+def _asked() -> Iterator[None]:
+    """Gateware is asked, not built; Amaranth would say so when Python comes to free its cycles."""
+    from amaranth.hdl import UnusedElaboratable
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusedElaboratable)
+        yield
+        gc.collect()
+
+
+def _check(config: Config, clock: float, width: int, height: int) -> None:
+    if not 0 < clock < float("inf"):
+        raise InputError(f"--clock {clock:g} is not a frequency", "give MHz, for example --clock 100")
+    for key, value, low, high in (
+        ("width", width, config.min_width, config.max_width),
+        ("height", height, config.min_height, config.max_height),
+    ):
+        if not low <= value <= high:
+            raise InputError(
+                f"--{key} {value} does not fit the core", f"use {low} to {high}, or --set max_{key}"
+            )

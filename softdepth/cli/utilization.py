@@ -1,0 +1,73 @@
+"""``softdepth utilization``: area and speed of the recommended configurations, measured."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from softdepth import screen
+from softdepth.spec.errors import InputError
+
+if TYPE_CHECKING:
+    from softdepth.studies.utilization import Selection
+
+
+def utilization(
+    row: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--row",
+            metavar="PRESET/OPERATOR/LANES[@SEED]",
+            help="Measure this row, from a seed of its own if one is given; repeatable [default: all].",
+        ),
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="The rows of eight lanes with MEAN only.")] = False,
+    disparities: Annotated[
+        int, typer.Option("--disparities", metavar="N", help="Candidates per pixel.")
+    ] = 64,
+    width: Annotated[int, typer.Option("--width", metavar="N", help="The longest line.")] = 1280,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Where nextpnr starts from.")] = 1,
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder of utilization.md and utilization.json."),
+    ] = Path("docs"),
+) -> None:
+    """Synthesise, place and route cores for an LFE5U-85F and write down area and speed.
+
+    With --row or --quick, the page's other rows stay as they are. A netlist that was placed and routed before
+    is not again: its figures are taken from the page that is renewed, or from the cache.
+    """
+    from softdepth.studies import utilization, utilization_page
+
+    usual = utilization_page.QUICK if quick else utilization_page.RECOMMENDED
+    rows = [_selection(text, seed) for text in row or ()] or [(each, seed) for each in usual]
+    configs = [each.config(disparities, width) for each, _ in rows]  # all are sound before the first is built
+    if not output.is_dir():
+        raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
+    known = utilization_page.load(output)
+    found = []
+    for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
+        screen.note(f"row {number} of {len(rows)}: {each}")
+        found.append(utilization.measure(config, each.preset, seed=its_seed, known=known))
+    utilization_page.write(output, utilization_page.merged(known, found) if row or quick else found)
+    print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
+
+
+def _selection(text: str, seed: int) -> tuple["Selection", int]:
+    """What a row names, and its seed: that of all unless it has its own."""
+    from pydantic import ValidationError
+
+    from softdepth.studies.utilization import Selection
+
+    names = ("preset", "operator", "lanes")
+    what, at, own = text.partition("@")
+    try:
+        selection = Selection.model_validate(dict(zip(names, what.split("/"), strict=True)))
+        if at and not own.isdecimal():
+            raise ValueError(f"'{own}' is no seed")
+    except (ValueError, ValidationError) as error:
+        raise InputError(
+            f"--row '{text}' is not PRESET/OPERATOR/LANES or PRESET/OPERATOR/LANES@SEED",
+            "write for example --row paper/mean/16",
+        ) from error
+    return selection, int(own) if at else seed

@@ -1,0 +1,1 @@
+"""Running pairs through gateware and models, and what is written about it."""

@@ -1,0 +1,58 @@
+"""What results depend on in the project itself, as a hash: what older sources gave is told apart.
+
+One list serves every cache: a room's hash covers the rooms that it builds on.
+"""
+
+import hashlib
+from functools import lru_cache
+from importlib import import_module
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+PROJECT = PACKAGE.parent
+
+BUILDS_ON: dict[str, tuple[str, ...]] = {
+    "spec": (),
+    "golden": ("spec",),
+    "hdl": ("spec",),
+    "sim": ("golden", "hdl", "flow"),
+    "flow": ("hdl",),
+    "run": ("golden",),
+    "studies.paper": ("golden", "run"),
+}
+"""The rooms whose results are kept, each with those that it imports and that decide what it gives."""
+
+
+def folder(room: str) -> Path:
+    """Where a room's sources lie, wherever the package is installed."""
+    return Path(next(iter(import_module(f"softdepth.{room}").__path__))).resolve()
+
+
+def covered(*rooms: str) -> tuple[str, ...]:
+    """`rooms` and all that they build on, each once, sorted."""
+    found: set[str] = set()
+    waiting = list(rooms)
+    while waiting:
+        room = waiting.pop()
+        if room not in found:
+            found.add(room)
+            waiting += BUILDS_ON[room]
+    return tuple(sorted(found))
+
+
+def sources_hash(*rooms: str, further: tuple[Path, ...] = ()) -> str:
+    """Twenty hex digits that change with the sources of `rooms`, of what they build on, and of `further`."""
+    digest = hashlib.sha256(_rooms_hash(covered(*rooms)))
+    for file in further:
+        digest.update(file.name.encode() + b"\0" + file.read_bytes())
+    return digest.hexdigest()[:20]
+
+
+@lru_cache
+def _rooms_hash(rooms: tuple[str, ...]) -> bytes:
+    digest = hashlib.sha256()
+    for room in rooms:
+        place = folder(room)
+        for file in sorted(place.rglob("*.py")):
+            digest.update(f"{room}/{file.relative_to(place)}".encode() + b"\0" + file.read_bytes())
+    return digest.digest()

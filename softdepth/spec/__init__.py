@@ -1,0 +1,1 @@
+"""What decides a result: the one configuration, and all that is derived from it."""

@@ -1,0 +1,261 @@
+"""The one configuration of a core: what is computed, and how much hardware computes it.
+
+A `Config` is frozen and validated. Presets come by name, files are TOML, and single keys can be
+overridden (``lanes=8``, ``compensation.reading=off``, ``criteria.0.window=5``). Every width, range
+and reach that the models and the gateware need is a property here, derived from these fields.
+"""
+
+from typing import Literal, Self, get_args
+
+from pydantic import Field, model_validator
+
+from softdepth.spec.criteria import CHANNEL_BITS, CHANNELS, LITERAL_INPUT, Compensation, Criterion, Sad
+from softdepth.spec.presets import PRESETS
+from softdepth.spec.rules import CONCLUSIONS, Firing, RuleBaseName, weight
+from softdepth.spec.settings import Settings
+from softdepth.spec.soft import soft_min_1_table
+
+__all__ = [
+    "CHANNELS",
+    "CHANNEL_BITS",
+    "LITERAL_INPUT",
+    "MULTIPLIER_BITS",
+    "OPERATORS",
+    "PRESETS",
+    "Compensation",
+    "Config",
+    "Criterion",
+    "Operator",
+    "Sad",
+]
+
+Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
+
+MULTIPLIER_BITS = 18
+CELL_PRODUCTS = 4
+"""Products that PROD takes in a lane: the others follow from these, as a criterion's memberships sum to 1."""
+NARROWEST = 4
+"""Pixels of the shortest line that the memories of lines can follow."""
+
+
+class Config(Settings):
+    """A stereo core, complete: method, ranges and parallelism.
+
+    Throughput is one result per `steps` clocks. See ``docs/configuration.md`` for every key.
+    """
+
+    name: str = "custom"
+    disparities: int = Field(default=64, ge=2, le=256)
+    lanes: int = Field(default=16, ge=1, le=256)
+    max_width: int = Field(default=1280, ge=8, le=8192)
+    max_height: int = Field(default=1080, ge=8, le=8192)
+    reference: Literal["left", "right"] = "left"
+    cost: Literal["fuzzy", "sad"] = "fuzzy"
+    operator: Operator = "mean"
+    softness: float = Field(default=0.05, ge=0, le=1)
+    sharpness: float = Field(default=-100.0, ge=-500, le=500)
+    max_multipliers: int = Field(default=156, ge=0)
+    rules: RuleBaseName = "printed"
+    firing: Firing = "all"
+    membership_bits: int = Field(default=8, ge=2, le=12)
+    criteria: tuple[Criterion, ...] = Field(
+        default=(Sad(window=3), Sad(window=5), Sad(window=7)), strict=False
+    )
+    compensation: Compensation = Compensation()
+    stored_rows: int = Field(default=0, ge=0)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.disparities % self.lanes:
+            fits = [n for n in range(1, self.disparities + 1) if self.disparities % n == 0]
+            raise ValueError(
+                f"lanes is {self.lanes}, which does not divide disparities = {self.disparities}:"
+                f" use one of {', '.join(map(str, fits))}"
+            )
+        expected = 3 if self.cost == "fuzzy" else 1
+        if len(self.criteria) != expected:
+            raise ValueError(
+                f"criteria has {len(self.criteria)} entries, but cost = '{self.cost}' takes {expected}"
+            )
+        if self.reach_rows == 0:
+            raise ValueError(
+                "all windows are 1, but the core needs a support of more than one row: use a window of 3"
+                " or more in one criterion"
+            )
+        if self.stored_rows > 2 * self.reach_rows:
+            raise ValueError(
+                f"stored_rows is {self.stored_rows}, but a window of {self.min_height} rows has"
+                f" {2 * self.reach_rows} above its newest: use at most that many"
+            )
+        if self.multipliers > self.max_multipliers:
+            raise ValueError(
+                f"operator '{self.operator}' in {self.lanes} lanes takes {self.multipliers} multipliers of"
+                f" {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits, more than max_multipliers ="
+                f" {self.max_multipliers}: use fewer lanes, or raise max_multipliers to what the part has"
+            )
+        for criterion in self.criteria:
+            if self.cost == "fuzzy" and criterion.label_bits < self.membership_bits:
+                raise ValueError(
+                    f"membership_bits is {self.membership_bits}, more than label_bits ="
+                    f" {criterion.label_bits}: memberships are the sum shifted right"
+                )
+        if self.max_width < self.min_width or self.max_height < self.min_height:
+            raise ValueError(
+                f"max_width x max_height is {self.max_width} x {self.max_height}, smaller than the"
+                f" smallest frame, {self.min_width} x {self.min_height}: raise them, or use smaller windows"
+            )
+        if self.compensation.reading != "off":
+            if self.cost != "fuzzy":
+                raise ValueError("compensation acts on fuzzy inputs: use reading = 'off' with cost = 'sad'")
+            if self.compensation_criterion is None:
+                raise ValueError(
+                    "compensation looks at the centred 3x3 SAD, which is not among the criteria:"
+                    " add {kind = 'sad', window = 3, dx = 0}, name another with compensation.criterion, or"
+                    " use reading = 'off'"
+                )
+        return self
+
+    # -- derived: parallelism and ranges ---------------------------------------------------------
+
+    @property
+    def steps(self) -> int:
+        """Clocks per pixel: each step evaluates `lanes` candidates."""
+        return self.disparities // self.lanes
+
+    @property
+    def disparity_bits(self) -> int:
+        """Bits of a disparity ``0 .. disparities - 1``."""
+        return (self.disparities - 1).bit_length()
+
+    @property
+    def windows(self) -> tuple[int, ...]:
+        """The distinct SAD window sizes, ascending."""
+        return tuple(sorted({c.window for c in self.criteria}))
+
+    # -- derived: reach of the support around the reference pixel, in pixels ---------------------
+
+    @property
+    def reach_left(self) -> int:
+        """Columns the support extends left of the reference pixel."""
+        return max(0, *(c.radius - c.dx for c in self.criteria))
+
+    @property
+    def reach_right(self) -> int:
+        """Columns the support extends right of the reference pixel."""
+        return max(0, *(c.radius + c.dx for c in self.criteria))
+
+    @property
+    def reach_rows(self) -> int:
+        """Rows the support extends above, and below, the reference pixel."""
+        return max(c.radius for c in self.criteria)
+
+    @property
+    def min_width(self) -> int:
+        """The narrowest legal frame: one full support, and no less than `NARROWEST`."""
+        return max(self.reach_left + 1 + self.reach_right, NARROWEST)
+
+    @property
+    def min_height(self) -> int:
+        """The lowest frame with a result: one full support. Lower frames yield border codes only."""
+        return 2 * self.reach_rows + 1
+
+    @property
+    def column_rows(self) -> int:
+        """Rows that lanes compare anew: the support's height without the `stored_rows`."""
+        return self.min_height - self.stored_rows
+
+    @property
+    def places(self) -> int:
+        """Steps of the longest line: the columns that a lane sees, candidates counted apart."""
+        return self.max_width * self.steps
+
+    # -- derived: numbers of the fuzzy stage -----------------------------------------------------
+
+    @property
+    def one(self) -> int:
+        """The membership value that stands for 1.0."""
+        return 1 << self.membership_bits
+
+    @property
+    def by_cell(self) -> bool:
+        """Only the eight rules around the criteria can count, whichever are said to fire.
+
+        The others have a membership of 0, and with MIN and PROD a strength of 0.
+        """
+        return self.firing == "cell" or self.operator in ("min", "prod")
+
+    @property
+    def strength_range(self) -> tuple[int, int]:
+        """Smallest and largest firing strength of a rule, in the operator's own scale.
+
+        The mean leaves out its 1/3 (it cancels in N/S); soft-min I goes below zero, as eq. 5 does.
+        """
+        match self.operator:
+            case "mean":
+                return 0, 3 * self.one
+            case "soft_min_1":
+                # Twice Theta of equal operands at both ends of the range: it is monotone.
+                table = soft_min_1_table(self.one, self.softness)
+                nested = table[0] + table[min(-table[0], len(table) - 1)]
+                return nested, self.one + nested
+            case _:
+                return 0, self.one
+
+    @property
+    def cost_range(self) -> tuple[tuple[int, int], tuple[int, int]]:
+        """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
+        if self.cost == "sad":
+            return (0, self.criteria[0].maximum), (1, 1)
+        one = self.one
+        low, high = self.strength_range
+        match self.operator, self.rules, self.by_cell:
+            # Extremes of what is piecewise linear in the criteria: at corners and centres of cells.
+            case "mean", "printed", False:
+                return (-27 * one, 26 * one), (0, 19 * one)
+            case "mean", "printed", True:
+                return (-32 * one, 30 * one), (7 * one, 11 * one)
+            case "mean", "corrected", True:
+                return (-32 * one, 32 * one), (9 * one, 11 * one)
+            case "min", _, _:
+                return (-15 * one // 2, 15 * one // 2), (one // 2, 3 * one)
+            case "prod", _, _:
+                # A cell's strengths sum to `one` but for what rounding adds.
+                return (-5 * (one + 3), 5 * (one + 3)), (1, one + 3)
+            case _, _, True:
+                # Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst. Soft-min I is
+                # concave, so that its least sum is near a corner of the cell: above a third of `one`.
+                return (-15 * high, 15 * high), (one // 4, 6 * high)
+        positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
+        reach = positive * (high - low)
+        return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)
+
+    @property
+    def multipliers(self) -> int:
+        """Multipliers of `MULTIPLIER_BITS` that the core takes: exact comparisons, and products of PROD.
+
+        A comparison of fractions takes two products; those wider than a multiplier take several.
+        """
+        if self.cost == "sad":
+            return 0
+
+        def tiles(bits: int) -> int:
+            return -(-bits // MULTIPLIER_BITS)
+
+        comparisons = self.lanes - 1 + (self.steps - 1).bit_length()
+        (num_low, num_high), (_, den_high) = self.cost_range
+        sign = num_low < 0
+        num = max(num_high.bit_length(), (~num_low).bit_length()) + sign
+        den = den_high.bit_length() + sign
+        products = CELL_PRODUCTS * self.lanes if self.operator == "prod" else 0
+        return 2 * comparisons * tiles(num) * tiles(den) + products
+
+    @property
+    def compensation_criterion(self) -> int | None:
+        """Index of the criterion that the compensating rule looks at, if there is such a one."""
+        if self.compensation.criterion:
+            return self.compensation.criterion - 1
+        found = [i for i, c in enumerate(self.criteria) if (c.window, c.dx) == (3, 0)]
+        return found[0] if found else None
+
+
+OPERATORS: tuple[Operator, ...] = get_args(Operator)

@@ -1,0 +1,100 @@
+"""Where configurations come from and go to: presets, TOML, single keys, plain data."""
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import tomli_w
+from pydantic import BaseModel, ValidationError
+
+from softdepth.spec.criteria import Compensation, Frozen, Sad
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.presets import PRESETS
+
+
+class Settings(Frozen):
+    """What can be read, overridden, written and named by a hash; the keys are its subclass's."""
+
+    @classmethod
+    def preset(cls, name: str) -> Self:
+        """The preset called `name`; raises `ConfigError` for an unknown one."""
+        if name not in PRESETS:
+            raise ConfigError(f"unknown preset '{name}'", f"use one of {', '.join(PRESETS)}")
+        return cls.from_dict({"name": name, **PRESETS[name]})
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a TOML file; keys left out keep the defaults of the `paper` preset."""
+        try:
+            return cls.from_dict({"name": path.stem, **tomllib.loads(path.read_text())})
+        except (OSError, UnicodeDecodeError) as error:
+            raise ConfigError(f"cannot read configuration '{path}'", "give a readable TOML file") from error
+        except tomllib.TOMLDecodeError as error:
+            raise ConfigError(f"'{path}' is not TOML: {error}", "mend that line") from error
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Validate plain data; raises `ConfigError` naming key, value and remedy."""
+        try:
+            return cls.model_validate({**data})
+        except ValidationError as error:
+            raise _explain(error, cls) from error
+
+    def override(self, assignments: Sequence[str]) -> Self:
+        """A copy with ``key=value`` assignments applied; nested keys are dotted (`criteria.0.window`)."""
+        data = self.model_dump(mode="json")
+        for text in assignments:
+            key, equals, value = text.partition("=")
+            if not equals:
+                raise ConfigError(f"override '{text}' has no '='", "write key=value, for example lanes=8")
+            try:
+                parsed = tomllib.loads(f"v = {value}")["v"]
+            except tomllib.TOMLDecodeError:
+                parsed = value  # a bare word is a string
+            *parents, leaf = key.strip().split(".")
+            node: Any = data
+            try:
+                for part in parents:
+                    node = node[int(part)] if isinstance(node, list) else node[part]
+                if isinstance(node, list):
+                    node[int(leaf)] = parsed
+                else:
+                    node[leaf] = parsed
+            except (KeyError, ValueError, IndexError, TypeError) as error:
+                raise ConfigError(
+                    f"unknown key '{key}'", f"known keys: {', '.join(type(self).model_fields)}"
+                ) from error
+        return self.from_dict(data)
+
+    def to_toml(self) -> str:
+        """The whole configuration as TOML; `load` reads it back unchanged."""
+        return tomli_w.dumps(self.model_dump(mode="json"))
+
+    def save(self, path: Path) -> None:
+        """Write `to_toml` to `path`."""
+        path.write_text(self.to_toml())
+
+    @cached_property
+    def hash(self) -> str:
+        """Twelve hex digits that name all that shapes the core: equal hashes build equal cores."""
+        data = self.model_dump(mode="json", exclude={"name", "max_multipliers"})
+        return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:12]
+
+
+def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
+    """The first validation error as one line with key, value and remedy."""
+    first = error.errors(include_url=False)[0]
+    key = ".".join(str(part) for part in first["loc"])
+    if first["type"] == "extra_forbidden":
+        table = {"compensation": Compensation, "criteria": Sad}.get(str(first["loc"][0]), model)
+        known = table.model_fields if len(first["loc"]) > 1 else model.model_fields
+        return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(known)}")
+    message = first["msg"].removeprefix("Value error, ")
+    if key:
+        return ConfigError(f"{key} = {first['input']!r} is not valid", message[0].lower() + message[1:])
+    problem, _, remedy = message.partition(": ")
+    return ConfigError(problem, remedy or "change one of the two")

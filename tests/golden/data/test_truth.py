@@ -1,0 +1,195 @@
+"""Ground truth: every coding by value, occlusions by hand and against plain loops."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from softdepth.golden.data.truth import Truth, View, cross_check, from_disparity, read_truth, visible, warp
+from softdepth.golden.data.writers import write_disparity_png, write_pfm
+from softdepth.spec.errors import InputError
+from tests.golden.conftest import save
+
+NAN = np.nan
+
+
+def check(truth: Truth, disparity: np.ndarray, gray: np.ndarray) -> None:
+    np.testing.assert_array_equal(truth.disparity, disparity)
+    np.testing.assert_array_equal(truth.gray, gray)
+    assert truth.disparity.dtype == truth.gray.dtype == np.float32
+    np.testing.assert_array_equal(truth.known, np.isfinite(disparity))
+
+
+@pytest.mark.parametrize(("scale", "divisor"), [(None, 4), (8, 8), (2.5, 2.5)])
+def test_eight_bit_gray(tmp_path: Path, scale: float | None, divisor: float) -> None:
+    gray = np.array([[0, 4, 10], [255, 1, 0]], np.uint8)
+    path = save(tmp_path / "disp2.png", gray)
+    expected = np.where(gray > 0, gray / np.float32(divisor), NAN).astype(np.float32)
+    check(read_truth(path, scale=scale), expected, gray)
+
+
+def test_gray_in_three_equal_channels(tmp_path: Path) -> None:
+    gray = np.array([[0, 4, 10]], np.uint8)
+    path = save(tmp_path / "disp2.png", np.dstack([gray] * 3))
+    np.testing.assert_array_equal(read_truth(path).gray, gray)
+
+
+def test_kitti(tmp_path: Path) -> None:
+    path = save(tmp_path / "000000_10.png", np.array([[0, 256, 384, 65535]], np.uint16))
+    disparity = np.array([[NAN, 1, 1.5, 65535 / 256]], np.float32)
+    check(read_truth(path), disparity, np.nan_to_num(4 * disparity))
+
+
+def test_pfm_takes_only_finite_positive_values(tmp_path: Path) -> None:
+    values = np.array([[np.inf, 1.25], [NAN, -3], [0, 70]], np.float32)
+    write_pfm(path := tmp_path / "disp0.pfm", np.where(np.isnan(values), 0, values))
+    disparity = np.array([[NAN, 1.25], [NAN, NAN], [NAN, 70]], np.float32)
+    check(read_truth(path), disparity, np.array([[0, 5], [0, 0], [0, 280]]))
+
+
+def test_pfm_agrees_with_opencv(tmp_path: Path, rng: np.random.Generator) -> None:
+    values = rng.uniform(1, 60, (7, 5)).astype(np.float32)
+    cv2.imwrite(str(path := tmp_path / "disp0.pfm"), values)
+    np.testing.assert_array_equal(read_truth(path).disparity, values)
+
+
+@pytest.mark.parametrize("header", [b"Pf\n2 1\n%s0.003922\n", b"Pf 2 1 %s1\n", b"Pf\n2\n1\n%s1e0\n"])
+@pytest.mark.parametrize(("sign", "order"), [(b"-", "<f4"), (b"", ">f4")])
+def test_pfm_headers(tmp_path: Path, header: bytes, sign: bytes, order: str) -> None:
+    """Both byte orders, any white space; the size of the scale is not applied."""
+    path = tmp_path / "disp0.pfm"
+    path.write_bytes(header % sign + np.array([10, 32], order).tobytes())
+    np.testing.assert_array_equal(read_truth(path).disparity, [[10, 32]])
+
+
+def test_pfm_rows_run_from_the_bottom(tmp_path: Path) -> None:
+    path = tmp_path / "disp0.pfm"
+    path.write_bytes(b"Pf\n1 2\n-1\n" + np.array([1, 2], "<f4").tobytes())
+    np.testing.assert_array_equal(read_truth(path).disparity, [[2], [1]])
+
+
+def refused(path: Path, **options: object) -> str:
+    with pytest.raises(InputError) as caught:
+        read_truth(path, **options)  # pyright: ignore[reportArgumentType]
+    assert "\n" not in str(caught.value)
+    assert caught.value.remedy
+    return caught.value.problem
+
+
+@pytest.mark.parametrize(
+    ("content", "problem"),
+    [
+        (b"Pf\n2 x\n-1\n", "broken PFM header"),
+        (b"Pf\n0 4\n-1\n", "broken PFM header"),
+        (b"Pf\n2 2", "broken PFM header"),
+        (b"PF\n1 1\n-1\n" + bytes(12), "three-channel PFM"),
+        (b"Pf\n2 2\n-1\n" + bytes(15), "cut short"),
+        (b"nothing", "cannot be decoded"),
+    ],
+)
+def test_broken_files(tmp_path: Path, content: bytes, problem: str) -> None:
+    path = tmp_path / "disp0.pfm"
+    path.write_bytes(content)
+    assert problem in refused(path)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    assert "does not exist" in refused(tmp_path / "disp2.png")
+
+
+def test_size_other_than_the_images(tmp_path: Path) -> None:
+    path = save(tmp_path / "disp2.png", np.full((3, 5), 9, np.uint8))
+    assert read_truth(path, shape=(3, 5)).disparity.shape == (3, 5)
+    problem = refused(path, shape=(5, 3))
+    assert "5x3" in problem
+    assert "3x5" in problem
+
+
+def test_other_kind_than_asked_for(tmp_path: Path) -> None:
+    path = save(tmp_path / "disp2.png", np.full((3, 5), 9, np.uint8))
+    assert "is gray8, not kitti16" in refused(path, kind="kitti16")
+    assert read_truth(path, kind="gray8").known.all()
+
+
+@pytest.mark.parametrize("scale", [0, -4, np.inf, NAN])
+def test_scale_must_be_positive(tmp_path: Path, scale: float) -> None:
+    assert "not a positive number" in refused(
+        save(tmp_path / "d.png", np.ones((2, 2), np.uint8)), scale=scale
+    )
+
+
+def test_colour_picture_is_no_truth(tmp_path: Path, picture: np.ndarray) -> None:
+    assert "colour picture" in refused(save(tmp_path / "d.png", picture))
+
+
+def test_truth_without_a_known_pixel(tmp_path: Path) -> None:
+    assert "no known disparity" in refused(save(tmp_path / "d.png", np.zeros((2, 2), np.uint8)))
+
+
+def test_float_tiff_is_no_truth(tmp_path: Path) -> None:
+    assert "float32" in refused(save(tmp_path / "d.tiff", np.ones((2, 2), np.float32)))
+
+
+# Left view: a far wall (1), and from column 4 a near object (3), which hides columns 2 and 3 of the wall
+# in the right view; column 0 leaves the image.
+LEFT = np.array([[1, 1, 1, 1, 3, 3, 3]], np.float32)
+RIGHT = np.array([[1, 3, 3, 3, NAN, NAN, NAN]], np.float32)
+SEEN = np.array([[False, True, False, False, True, True, True]])
+
+
+def test_warp_keeps_the_nearest() -> None:
+    np.testing.assert_array_equal(warp(LEFT), RIGHT)
+    np.testing.assert_array_equal(warp(RIGHT, "right"), [[NAN, 1, NAN, NAN, 3, 3, 3]])
+
+
+def test_visible_by_hand() -> None:
+    np.testing.assert_array_equal(visible(LEFT), SEEN)
+    np.testing.assert_array_equal(visible(RIGHT, "right"), np.isfinite(RIGHT))
+
+
+def test_cross_check_by_hand() -> None:
+    np.testing.assert_array_equal(cross_check(LEFT, RIGHT), SEEN)
+    np.testing.assert_array_equal(cross_check(RIGHT, LEFT, "right"), np.isfinite(RIGHT))
+    np.testing.assert_array_equal(cross_check(LEFT, RIGHT + 1), SEEN)
+    assert not cross_check(LEFT, RIGHT + 1.25).any()
+
+
+@pytest.mark.parametrize("view", ["left", "right"])
+def test_occlusions_against_plain_loops(rng: np.random.Generator, view: View) -> None:
+    disparity = (rng.integers(0, 60, (6, 30)) / 4).astype(np.float32)
+    other = (rng.integers(0, 60, (6, 30)) / 4).astype(np.float32)
+    disparity[rng.random(disparity.shape) < 0.1] = NAN
+    other[rng.random(other.shape) < 0.1] = NAN
+    height, width = disparity.shape
+    sign = -1 if view == "left" else 1
+    seen, confirmed = np.zeros((2, height, width), bool)
+    for y in range(height):
+        landing = {x: round(x + sign * float(disparity[y, x])) for x in range(width) if disparity[y, x] >= 0}
+        for x, column in landing.items():
+            if 0 <= column < width:
+                rivals = [disparity[y, i] for i, c in landing.items() if c == column]
+                seen[y, x] = disparity[y, x] >= max(rivals) - 1
+                confirmed[y, x] = abs(disparity[y, x] - other[y, column]) <= 1
+    assert 0 < seen.sum() < seen.size
+    assert confirmed.any()
+    np.testing.assert_array_equal(visible(disparity, view), seen)
+    np.testing.assert_array_equal(cross_check(disparity, other, view), confirmed)
+
+
+def test_evidence_is_named() -> None:
+    assert from_disparity(LEFT).evidence == "warp"
+    both = from_disparity(LEFT, other=RIGHT)
+    assert both.evidence == "cross-check"
+    np.testing.assert_array_equal(both.nonoccluded, SEEN)
+
+
+def test_read_truth_finds_occlusions_of_its_view(tmp_path: Path) -> None:
+    write_disparity_png(path := tmp_path / "d.png", RIGHT)
+    np.testing.assert_array_equal(read_truth(path, view="right").nonoccluded, np.isfinite(RIGHT))
+    assert read_truth(path, view="left").nonoccluded.sum() < 4  # pyright: ignore[reportOptionalMemberAccess]
+
+
+def test_views_of_other_sizes() -> None:
+    with pytest.raises(InputError, match="7x1 and 6x1"):
+        cross_check(LEFT, RIGHT[:, 1:])

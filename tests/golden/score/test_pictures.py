@@ -1,0 +1,120 @@
+"""Pictures: colours mean what the legend says, and the files are PNGs of the promised layout."""
+
+import cv2
+import numpy as np
+import pytest
+
+from softdepth.golden.data.truth import from_disparity
+from softdepth.golden.score.pictures import (
+    ERROR_COLOURS,
+    NO_RESULT,
+    colour,
+    error_picture,
+    side_by_side,
+    triptych,
+)
+from softdepth.spec.errors import InputError
+
+
+def test_near_is_warm_and_far_is_cold() -> None:
+    picture = colour(np.array([[6, 32, 58]]), np.ones((1, 3), bool), 64)[0].astype(int)
+    far, middle, near = picture
+    assert far[2] > far[0] + 100, "far is blue"
+    assert middle[1] == middle.max(), "the middle is green"
+    assert near[0] > near[2] + 100, "near is red"
+    assert picture.shape == (3, 3)
+
+
+def test_colours_are_the_maps_own() -> None:
+    """OpenCV has the same map in a table of its own."""
+    shades = np.arange(256, dtype=np.uint8)[np.newaxis]
+    expected = cv2.applyColorMap(shades, cv2.COLORMAP_TURBO)[:, :, ::-1]
+    actual = colour(np.arange(256)[np.newaxis] + 0.5, np.ones((1, 256), bool), 256)
+    assert np.abs(actual.astype(int) - expected).max() <= 2
+
+
+def test_no_result_has_a_colour_of_its_own() -> None:
+    ramp = np.linspace(0, 64, 300)[np.newaxis]
+    valid = np.ones(ramp.shape, bool)
+    assert not (colour(ramp, valid, 64) == NO_RESULT).all(2).any()
+    valid[0, 7] = False
+    ramp[0, 9] = np.nan
+    assert np.argwhere((colour(ramp, valid, 64) == NO_RESULT).all(2)).tolist() == [[0, 7], [0, 9]]
+
+
+def test_beyond_the_maximum_is_clipped() -> None:
+    at, beyond = colour(np.array([[64, 900]]), np.ones((1, 2), bool), 64)[0]
+    np.testing.assert_array_equal(at, beyond)
+
+
+@pytest.mark.parametrize("maximum", [0, -1, np.nan])
+def test_maximum_must_be_positive(maximum: float) -> None:
+    with pytest.raises(InputError, match="maximum disparity"):
+        colour(np.zeros((1, 1)), np.ones((1, 1), bool), maximum)
+
+
+def test_error_classes_are_those_of_the_legend() -> None:
+    truth = from_disparity(np.array([[10, 11, 11.25, 12, 12.25, 10, np.nan, np.nan]]))
+    disparity = np.full((1, 8), 10, np.uint16)
+    valid = np.array([[True] * 5 + [False, True, False]])
+    classes = "within 1 px|within 1 px|1 to 2 px|1 to 2 px|over 2 px|no result|truth unknown|truth unknown"
+    expected = [ERROR_COLOURS[name] for name in classes.split("|")]
+    np.testing.assert_array_equal(error_picture(disparity, truth, valid)[0], expected)
+    assert len(set(ERROR_COLOURS.values())) == len(ERROR_COLOURS)
+    floats = np.where(valid, 10.0, np.nan)
+    np.testing.assert_array_equal(error_picture(floats, truth)[0], expected)
+
+
+def test_shapes_must_agree() -> None:
+    with pytest.raises(InputError, match="the truth"):
+        error_picture(np.zeros((2, 2)), from_disparity(np.ones((2, 3))))
+    with pytest.raises(InputError, match="valid mask"):
+        error_picture(np.zeros((2, 2)), from_disparity(np.ones((2, 2))), np.ones((1, 2), bool))
+    with pytest.raises(InputError, match="valid mask"):
+        colour(np.zeros((2, 2)), np.ones((1, 2), bool), 9)
+
+
+def decode(data: bytes) -> np.ndarray:
+    image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    assert image is not None
+    return image[:, :, ::-1].astype(int)
+
+
+def test_triptych_shows_left_right_and_map() -> None:
+    """Flat pictures, so that each panel's place and colour can be asked for."""
+    left, right = (np.full((300, 400, 3), shade, np.uint8) for shade in ((250, 10, 10), (10, 10, 250)))
+    disparity, valid = np.full((300, 400), 32), np.ones((300, 400), bool)
+    valid[:, :40] = False
+    image = decode(triptych(left, right, disparity, valid, 64))
+    row = image[image.shape[0] * 3 // 5]
+    green = tuple(int(v) for v in colour(disparity, valid, 64)[0, 200])
+    places = []
+    for shade in ((250, 10, 10), (10, 10, 250), NO_RESULT, green):
+        hits = np.nonzero(np.abs(row - shade).max(1) <= 2)[0]
+        assert len(hits) > 40
+        places.append(int(np.median(hits)))
+    assert places == sorted(places)
+    bar = image[:, places[-1] + 250 :]
+    assert (bar.max(2) - bar.min(2) > 150).any(), "the colour bar stands right of the map"
+    assert (image[:4] == 255).all(), "the margin is white"
+
+
+def test_legend_and_bar_take_room() -> None:
+    panels = [("a", np.zeros((50, 80, 3), np.uint8)), ("b", np.zeros((50, 80, 3), np.uint8))]
+    plain, bar, legend = (
+        decode(side_by_side(panels, **o)) for o in ({}, {"maximum": 64}, {"legend": ERROR_COLOURS})
+    )
+    assert bar.shape[1] > plain.shape[1]
+    assert legend.shape[0] > plain.shape[0]
+    for name in ("1 to 2 px", "over 2 px"):
+        assert (np.abs(legend - ERROR_COLOURS[name]).max(2) <= 2).any(), name
+        assert not (np.abs(plain - ERROR_COLOURS[name]).max(2) <= 2).any()
+
+
+def test_pictures_are_reproducible(picture: np.ndarray) -> None:
+    assert side_by_side([("a", picture)], maximum=9) == side_by_side([("a", picture)], maximum=9)
+
+
+def test_no_panel() -> None:
+    with pytest.raises(InputError, match="no picture"):
+        side_by_side([])

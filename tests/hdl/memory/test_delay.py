@@ -1,0 +1,49 @@
+"""Delay: depths on both sides of the step from registers to memory."""
+
+import gc
+from random import Random
+
+import pytest
+from amaranth.lib import data
+
+from softdepth.hdl.memory.delay import REGISTER_LIMIT, Delay
+from tests.support.simulation import observe
+
+
+@pytest.mark.parametrize(
+    "depth", [0, 1, 2, REGISTER_LIMIT - 1, REGISTER_LIMIT, REGISTER_LIMIT + 1, REGISTER_LIMIT + 2, 31, 32, 33]
+)
+@pytest.mark.parametrize("rate", [1.0, 0.6])
+def test_shows_the_value_of_so_many_enabled_clocks_ago(depth: int, rate: float) -> None:
+    random = Random(depth)
+    clocks = [{"i": random.getrandbits(9), "en": random.random() < rate} for _ in range(5 * depth + 60)]
+    seen = observe(Delay(9, depth), clocks, "o")
+    entered: list[int] = []
+    compared = 0
+    for ports, o in zip(clocks, seen, strict=True):
+        if not ports["en"]:
+            continue
+        entered.append(ports["i"])
+        if len(entered) > depth:
+            assert o == entered[-1 - depth]
+            compared += 1
+    assert compared > depth + 10
+
+
+def test_a_depth_of_zero_is_a_wire_without_its_enable() -> None:
+    assert observe(Delay(4, 0), [{"i": 5, "en": 0}, {"i": 9}], "o") == [5, 9]
+
+
+@pytest.mark.parametrize("depth", [3, REGISTER_LIMIT + 3])
+def test_structures_keep_their_shape(depth: int) -> None:
+    layout = data.StructLayout({"a": 3, "b": 7})
+    clocks = [{"i": {"a": k % 8, "b": 127 - k}, "en": 1} for k in range(40)]
+    seen = [layout.from_bits(bits) for bits in observe(Delay(layout, depth), clocks, "o")]
+    assert [(o.a, o.b) for o in seen[depth:]] == [(k % 8, 127 - k) for k in range(40 - depth)]
+
+
+@pytest.mark.filterwarnings("ignore:.*Delay object.*never used")
+def test_refuses_to_look_ahead() -> None:
+    with pytest.raises(ValueError, match="depth is -1"):
+        Delay(1, -1)
+    gc.collect()  # Amaranth complains of the half-made object when it goes, which is to be now

@@ -143,7 +143,7 @@ def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, 
 
     Both come in a type that holds the products of any two candidates.
     """
-    if config.cost == "sad":
+    if config.cost == "sum":
         return criteria[0], np.ones_like(criteria[0])
     # No strength exceeds 3 * one (the mean's sum), nor falls below minus that.
     n_max = 3 * config.one * sum(abs(weight(k)) for k in range(1, CONCLUSIONS + 1))

@@ -126,4 +126,4 @@ def _cost_function(
     def sad(d: int, criteria: list[Values]) -> Array:
         return criteria[0].astype(np.float64)
 
-    return sad if config.cost == "sad" else fuzzy
+    return sad if config.cost == "sum" else fuzzy

@@ -6,6 +6,7 @@ from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.built import check_built
 from softdepth.hdl.costs.cost import fraction_layout
 from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD
 from softdepth.hdl.costs.lane import Lane, column_layout
@@ -46,6 +47,7 @@ class StereoCore(wiring.Component):
     """
 
     def __init__(self, config: Config) -> None:
+        check_built(config)
         self._config = config
         self._lanes = [Lane(config) for _ in range(config.lanes)]
         lane = self._lanes[0]

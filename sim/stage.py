@@ -14,7 +14,7 @@ from softdepth.golden import fixed_model
 from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
 from softdepth.sim.compare import Mismatch, mismatches
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, Sad
 from softdepth.spec.validity import Validity
 
 Pair = tuple[Image, Image]
@@ -95,9 +95,9 @@ class _Frame:
             without = config.override(["compensation.reading=off"])
             yield "compensating rule (as without it)", fixed_model.disparity(left, right, without)
         plain = config.model_dump(mode="json")
-        plain |= {"cost": "sad", "compensation": {"reading": "off"}, "stored_rows": 0}
+        plain |= {"cost": "sum", "compensation": {"reading": "off"}, "stored_rows": 0}
         for number, criterion in enumerate(config.criteria, start=1):
-            if config.cost == "fuzzy" and criterion.radius:
+            if config.cost == "fuzzy" and isinstance(criterion, Sad) and criterion.radius:
                 sad = Config.from_dict(plain | {"criteria": [criterion.model_dump(mode="json")]})
                 stage = f"inference (as by criterion {number} alone)"
                 yield stage, fixed_model.disparity(left, right, sad)
@@ -105,7 +105,7 @@ class _Frame:
     @cached_property
     def _lane(self) -> str:
         """What is left. A cost that grows with its inputs prefers no worse ones, but argmin may take them."""
-        if self._config.cost == "sad":
+        if self._config.cost == "sum":
             return "criteria or argmin"
         found = [d for d in self._expected.differences(self._got) if d.got.code < Validity.BORDER]
         better = []

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.golden.costs.sad import Planes, sad
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, Sad
 
 Values = NDArray[np.int32]
 
@@ -29,6 +29,7 @@ def evaluate(config: Config, left: Planes, right: Planes) -> list[Values]:
     columns = width - config.reach_left - config.reach_right
     values = []
     for criterion in config.criteria:
+        assert isinstance(criterion, Sad)
         r = criterion.radius
         top = config.reach_rows - r
         start = config.reach_left + criterion.dx - r

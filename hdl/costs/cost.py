@@ -88,5 +88,5 @@ class SadCost(wiring.Component):
         return m
 
 
-COSTS = {"fuzzy": FuzzyCost, "sad": SadCost}
+COSTS = {"fuzzy": FuzzyCost, "sum": SadCost}
 """The component behind each value of `Config.cost`."""

@@ -40,6 +40,7 @@ def bench(
     """Measure speed and write it down, with the machine it was measured on."""
     from softdepth.files import write_atomically
     from softdepth.golden.data import datasets
+    from softdepth.hdl.built import missing
 
     if not output.is_dir():
         raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
@@ -50,7 +51,11 @@ def bench(
         "height": pair.height,
         "simulated_rows": min(rows, pair.height),
         "machine": machine(),
-        "presets": {name: _preset(Config.preset(name), pair, rows) for name in PRESETS},
+        "presets": {
+            name: _preset(config, pair, rows)
+            for name in PRESETS
+            if not missing(config := Config.preset(name))
+        },
         "opencv_stereobm_seconds": _block_matcher(pair),
     }
     write_atomically(output / "benchmarks.json", (json.dumps(figures, indent=2) + "\n").encode())

@@ -9,9 +9,11 @@ from softdepth.spec.config import PRESETS, Config
 def presets() -> None:
     """List the built-in configurations."""
     table = Table("preset", "cost", "criteria", "disparities", "lanes", "clocks/pixel", "hash", box=None)
+    for column in (table.columns[0], table.columns[-1]):
+        column.no_wrap = True
     for name in PRESETS:
         config = Config.preset(name)
-        criteria = ", ".join(f"{c.kind}({c.window}, {c.dx:+d})" for c in config.criteria)
+        criteria = ", ".join(map(str, config.criteria))
         numbers = map(str, (config.disparities, config.lanes, config.steps))
         table.add_row(name, config.cost, criteria, *numbers, config.hash)
     screen.console().print(table)

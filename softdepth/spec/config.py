@@ -5,15 +5,26 @@ overridden (``lanes=8``, ``compensation.reading=off``, ``criteria.0.window=5``).
 and reach that the models and the gateware need is a property here, derived from these fields.
 """
 
-from typing import Literal, Self, get_args
+from typing import Any, Literal, Self, get_args
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from softdepth.spec.criteria import CHANNEL_BITS, CHANNELS, LITERAL_INPUT, Compensation, Criterion, Sad
+from softdepth.spec import ranges
+from softdepth.spec.criteria import (
+    CHANNEL_BITS,
+    CHANNELS,
+    LITERAL_INPUT,
+    Census,
+    Compensation,
+    Criterion,
+    Gradient,
+    Sad,
+)
+from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
-from softdepth.spec.rules import CONCLUSIONS, Firing, RuleBaseName, weight
+from softdepth.spec.ranges import MULTIPLIER_BITS, QUOTIENT_BITS
+from softdepth.spec.rules import Firing, RuleBaseName
 from softdepth.spec.settings import Settings
-from softdepth.spec.soft import soft_min_1_table
 
 __all__ = [
     "CHANNELS",
@@ -22,20 +33,22 @@ __all__ = [
     "MULTIPLIER_BITS",
     "OPERATORS",
     "PRESETS",
+    "QUOTIENT_BITS",
+    "Census",
     "Compensation",
     "Config",
     "Criterion",
+    "Gradient",
     "Operator",
+    "Post",
     "Sad",
 ]
 
 Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
 
-MULTIPLIER_BITS = 18
-CELL_PRODUCTS = 4
-"""Products that PROD takes in a lane: the others follow from these, as a criterion's memberships sum to 1."""
 NARROWEST = 4
 """Pixels of the shortest line that the memories of lines can follow."""
+CONFIDENCE_BITS = 8
 
 
 class Config(Settings):
@@ -50,7 +63,7 @@ class Config(Settings):
     max_width: int = Field(default=1280, ge=8, le=8192)
     max_height: int = Field(default=1080, ge=8, le=8192)
     reference: Literal["left", "right"] = "left"
-    cost: Literal["fuzzy", "sad"] = "fuzzy"
+    cost: Literal["fuzzy", "sum"] = "fuzzy"
     operator: Operator = "mean"
     softness: float = Field(default=0.05, ge=0, le=1)
     sharpness: float = Field(default=-100.0, ge=-500, le=500)
@@ -62,7 +75,14 @@ class Config(Settings):
         default=(Sad(window=3), Sad(window=5), Sad(window=7)), strict=False
     )
     compensation: Compensation = Compensation()
+    post: Post = Post()
     stored_rows: int = Field(default=0, ge=0)
+
+    @field_validator("cost", mode="before")
+    @classmethod
+    def _earlier_name(cls, value: Any) -> Any:
+        """``sad`` is the earlier name of the sum, when it was of one criterion."""
+        return "sum" if value == "sad" else value
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -72,12 +92,11 @@ class Config(Settings):
                 f"lanes is {self.lanes}, which does not divide disparities = {self.disparities}:"
                 f" use one of {', '.join(map(str, fits))}"
             )
-        expected = 3 if self.cost == "fuzzy" else 1
-        if len(self.criteria) != expected:
-            raise ValueError(
-                f"criteria has {len(self.criteria)} entries, but cost = '{self.cost}' takes {expected}"
-            )
-        if self.reach_rows == 0:
+        count = len(self.criteria)
+        if count != 3 and (self.cost == "fuzzy" or not 0 < count < 3):
+            takes = "3" if self.cost == "fuzzy" else "1 to 3"
+            raise ValueError(f"criteria has {count} entries, but cost = '{self.cost}' takes {takes}")
+        if self.reach_rows == 0 and not self.whole_frame:
             raise ValueError(
                 "all windows are 1, but the core needs a support of more than one row: use a window of 3"
                 " or more in one criterion"
@@ -106,7 +125,7 @@ class Config(Settings):
             )
         if self.compensation.reading != "off":
             if self.cost != "fuzzy":
-                raise ValueError("compensation acts on fuzzy inputs: use reading = 'off' with cost = 'sad'")
+                raise ValueError("compensation acts on fuzzy inputs: use reading = 'off' with cost = 'sum'")
             if self.compensation_criterion is None:
                 raise ValueError(
                     "compensation looks at the centred 3x3 SAD, which is not among the criteria:"
@@ -130,24 +149,47 @@ class Config(Settings):
     @property
     def windows(self) -> tuple[int, ...]:
         """The distinct SAD window sizes, ascending."""
-        return tuple(sorted({c.window for c in self.criteria}))
+        return tuple(sorted({c.window for c in self.sads}))
+
+    # -- derived: criteria by kind, and what their results look like ------------------------------
+
+    @property
+    def sads(self) -> tuple[Sad, ...]:
+        """The criteria that have a border band."""
+        return tuple(c for c in self.criteria if isinstance(c, Sad))
+
+    @property
+    def whole_frame(self) -> bool:
+        """Every pixel has a result: no criterion has a border band."""
+        return not self.sads
+
+    @property
+    def result_bits(self) -> int:
+        """Bits of a result's disparity, `Post.fraction_bits` of them below one pixel."""
+        return self.disparity_bits + self.post.fraction_bits
+
+    @property
+    def code_bits(self) -> int:
+        """Bits of a result's `Validity` code."""
+        return 3 if self.post.any or len(self.sads) < len(self.criteria) else 2
 
     # -- derived: reach of the support around the reference pixel, in pixels ---------------------
+    # These speak of the border band: criteria that count what is outside as 0 have none.
 
     @property
     def reach_left(self) -> int:
         """Columns the support extends left of the reference pixel."""
-        return max(0, *(c.radius - c.dx for c in self.criteria))
+        return max((0, *(c.radius - c.dx for c in self.sads)))
 
     @property
     def reach_right(self) -> int:
         """Columns the support extends right of the reference pixel."""
-        return max(0, *(c.radius + c.dx for c in self.criteria))
+        return max((0, *(c.radius + c.dx for c in self.sads)))
 
     @property
     def reach_rows(self) -> int:
         """Rows the support extends above, and below, the reference pixel."""
-        return max(c.radius for c in self.criteria)
+        return max((0, *(c.radius for c in self.sads)))
 
     @property
     def min_width(self) -> int:
@@ -190,71 +232,45 @@ class Config(Settings):
 
         The mean leaves out its 1/3 (it cancels in N/S); soft-min I goes below zero, as eq. 5 does.
         """
-        match self.operator:
-            case "mean":
-                return 0, 3 * self.one
-            case "soft_min_1":
-                # Twice Theta of equal operands at both ends of the range: it is monotone.
-                table = soft_min_1_table(self.one, self.softness)
-                nested = table[0] + table[min(-table[0], len(table) - 1)]
-                return nested, self.one + nested
-            case _:
-                return 0, self.one
+        return ranges.strengths(self)
 
     @property
     def cost_range(self) -> tuple[tuple[int, int], tuple[int, int]]:
         """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
-        if self.cost == "sad":
-            return (0, self.criteria[0].maximum), (1, 1)
-        one = self.one
-        low, high = self.strength_range
-        match self.operator, self.rules, self.by_cell:
-            # Extremes of what is piecewise linear in the criteria: at corners and centres of cells.
-            case "mean", "printed", False:
-                return (-27 * one, 26 * one), (0, 19 * one)
-            case "mean", "printed", True:
-                return (-32 * one, 30 * one), (7 * one, 11 * one)
-            case "mean", "corrected", True:
-                return (-32 * one, 32 * one), (9 * one, 11 * one)
-            case "min", _, _:
-                return (-15 * one // 2, 15 * one // 2), (one // 2, 3 * one)
-            case "prod", _, _:
-                # A cell's strengths sum to `one` but for what rounding adds.
-                return (-5 * (one + 3), 5 * (one + 3)), (1, one + 3)
-            case _, _, True:
-                # Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst. Soft-min I is
-                # concave, so that its least sum is near a corner of the cell: above a third of `one`.
-                return (-15 * high, 15 * high), (one // 4, 6 * high)
-        positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
-        reach = positive * (high - low)
-        return (-reach, reach), (CONCLUSIONS * low, CONCLUSIONS * high)
+        return ranges.costs(self)
+
+    @property
+    def number_range(self) -> tuple[int, int]:
+        """Smallest and largest cost as a whole number, as margins and fractions of a pixel take it.
+
+        A sum is one. A fuzzy cost N / S, a mean of weights, is ``floor(N * 2**QUOTIENT_BITS / S)``, held
+        within this range.
+        """
+        return ranges.numbers(self)
+
+    @property
+    def confidence_shift(self) -> int:
+        """Bits that a margin drops to become a confidence."""
+        low, high = self.number_range
+        return max(0, (high - low).bit_length() - CONFIDENCE_BITS - 2)
 
     @property
     def multipliers(self) -> int:
-        """Multipliers of `MULTIPLIER_BITS` that the core takes: exact comparisons, and products of PROD.
-
-        A comparison of fractions takes two products; those wider than a multiplier take several.
+        """Multipliers of `MULTIPLIER_BITS` that the core takes: exact comparisons of fractions, products
+        of PROD, and the reciprocals of censuses with a support, one a lane.
         """
-        if self.cost == "sad":
-            return 0
-
-        def tiles(bits: int) -> int:
-            return -(-bits // MULTIPLIER_BITS)
-
-        comparisons = self.lanes - 1 + (self.steps - 1).bit_length()
-        (num_low, num_high), (_, den_high) = self.cost_range
-        sign = num_low < 0
-        num = max(num_high.bit_length(), (~num_low).bit_length()) + sign
-        den = den_high.bit_length() + sign
-        products = CELL_PRODUCTS * self.lanes if self.operator == "prod" else 0
-        return 2 * comparisons * tiles(num) * tiles(den) + products
+        return ranges.multipliers(self)
 
     @property
     def compensation_criterion(self) -> int | None:
         """Index of the criterion that the compensating rule looks at, if there is such a one."""
         if self.compensation.criterion:
             return self.compensation.criterion - 1
-        found = [i for i, c in enumerate(self.criteria) if (c.window, c.dx) == (3, 0)]
+        found = [
+            i
+            for i, c in enumerate(self.criteria)
+            if isinstance(c, Sad) and (c.window, c.dx, c.source) == (3, 0, "colour")
+        ]
         return found[0] if found else None
 
 

@@ -1,13 +1,19 @@
 """The parts of a configuration: criteria and the compensating rule (Bobyr et al. 2021)."""
 
-from typing import Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
 Reading = Literal["off", "top", "literal"]
 
 CHANNELS = 3
 CHANNEL_BITS = 8
+GRADIENT_CAP = 31
+"""Largest gradient that the SADs of gradients see."""
+RECIPROCAL_BITS = 12
+"""Fraction bits of the reciprocal of a support's number of columns."""
+SUPPORT_SHIFT = 10
+"""Bits that the mean of a support's columns drops: two fraction bits stay."""
 LITERAL_INPUT = 1000
 """The value that the compensating rule's literal reading gives every criterion."""
 
@@ -22,18 +28,20 @@ class Sad(Frozen):
     """Criterion: sum of absolute RGB differences over ``window x window`` pixels (eq. 7).
 
     The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
-    at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T.
+    at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T. ``source = "gradient"``
+    compares the luma's horizontal gradient, held within +-`GRADIENT_CAP`, in place of the colours.
     """
 
+    whole_frame: ClassVar[bool] = False
     kind: Literal["sad"] = "sad"
+    source: Literal["colour", "gradient"] = "colour"
     window: int = Field(default=3, ge=1, le=15)
     dx: int = Field(default=0, ge=-16, le=16)
     label_bits: int = Field(default=12, ge=4, le=20)
 
     @model_validator(mode="after")
     def _odd(self) -> Self:
-        if self.window % 2 == 0:
-            raise ValueError(f"window is {self.window}, but a window has a centre: use an odd size")
+        check_odd(window=self.window)
         return self
 
     @property
@@ -44,11 +52,153 @@ class Sad(Frozen):
     @property
     def maximum(self) -> int:
         """The largest value the sum can take."""
-        return self.window**2 * CHANNELS * (2**CHANNEL_BITS - 1)
+        pixel = CHANNELS * (2**CHANNEL_BITS - 1) if self.source == "colour" else 2 * GRADIENT_CAP
+        return self.window**2 * pixel
+
+    def __str__(self) -> str:
+        of = " of gradient" if self.source == "gradient" else ""
+        return f"sad({self.window}, {self.dx:+d}){of}"
 
 
-# A further criterion is a further model here, told apart by its `kind`.
-Criterion = Sad
+class Census(Frozen):
+    """Criterion: unlike census bits, summed down a column and over columns of like colour.
+
+    The 24 bits of a pixel say which of the black squares of a 7x7 chessboard around it are darker
+    (luma) than it is. The Hamming distance of both views' bits, or `neutral` where the partner lies
+    left of the right image, is summed over `rows` rows. Of `taps` such columns, `spacing` apart and
+    centred on the pixel, those count that lie in the image and whose pixel (of the reference view, in the
+    same row) is less than `like` from the centre's in every channel: with n of them, and their sum s,
+    the value is ``s * round(4096 / n) >> 10``, four times their mean. One tap, the centre, is no
+    support: four times the column.
+
+    What lies outside the image counts 0, and every pixel has a value. `like` is in units of 8-bit
+    values: with 256 every column counts. Labels as in `Sad`.
+    """
+
+    whole_frame: ClassVar[bool] = True
+    bits: ClassVar[int] = 24
+    kind: Literal["census"] = "census"
+    window: Literal[7] = 7
+    rows: int = Field(default=9, ge=1, le=15)
+    taps: int = Field(default=7, ge=1, le=15)
+    spacing: int = Field(default=4, ge=1, le=8)
+    like: int = Field(default=32, ge=1, le=256)
+    neutral: int = Field(default=6, ge=0, le=24)
+    label_bits: int = Field(default=8, ge=4, le=20)
+
+    @model_validator(mode="after")
+    def _odd(self) -> Self:
+        check_odd(rows=self.rows, taps=self.taps)
+        return self
+
+    @property
+    def offsets(self) -> tuple[int, ...]:
+        """The columns of the support, relative to the pixel's own, ascending."""
+        reach = self.taps // 2
+        return tuple(self.spacing * k for k in range(-reach, reach + 1))
+
+    @property
+    def reciprocals(self) -> tuple[int, ...]:
+        """``round(2**RECIPROCAL_BITS / n)``, halves upwards, for n = 1 .. taps columns."""
+        return tuple(((2 << RECIPROCAL_BITS) // n + 1) // 2 for n in range(1, self.taps + 1))
+
+    @property
+    def column_maximum(self) -> int:
+        """The largest sum down a column."""
+        return self.bits * self.rows
+
+    @property
+    def maximum(self) -> int:
+        """The largest value."""
+        counts = enumerate(self.reciprocals, start=1)
+        return max(n * self.column_maximum * r >> SUPPORT_SHIFT for n, r in counts)
+
+    @property
+    def below(self) -> int:
+        """Rows below the pixel that its value depends on."""
+        return self.rows // 2 + self.window // 2
+
+    @property
+    def beside(self) -> int:
+        """Columns to the right of the pixel (and to its left) that its value depends on."""
+        return self.offsets[-1] + self.window // 2
+
+    def __str__(self) -> str:
+        return f"census({self.rows}, {self.taps} x {self.spacing})"
+
+
+class Gradient(Frozen):
+    """Criterion: differences of the horizontal gradient, summed over ``rows x columns`` pixels.
+
+    The gradient is the luma's Sobel, edges replicated, held within +-`cap`. A pixel's difference is at
+    most `truncation`; it is `neutral` where the partner lies left of the right image. What lies
+    outside the image counts 0, and every pixel has a value. Labels as in `Sad`.
+    """
+
+    whole_frame: ClassVar[bool] = True
+    kind: Literal["gradient"] = "gradient"
+    rows: int = Field(default=5, ge=1, le=15)
+    columns: int = Field(default=5, ge=1, le=15)
+    cap: int = Field(default=31, ge=1, le=127)
+    truncation: int = Field(default=16, ge=1, le=254)
+    neutral: int = Field(default=2, ge=0, le=254)
+    label_bits: int = Field(default=8, ge=4, le=20)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        check_odd(rows=self.rows, columns=self.columns)
+        if self.neutral > self.truncation:
+            raise ValueError(
+                f"neutral is {self.neutral}, more than any difference: use at most truncation ="
+                f" {self.truncation}"
+            )
+        return self
+
+    @property
+    def maximum(self) -> int:
+        """The largest value."""
+        return self.rows * self.columns * min(self.truncation, 2 * self.cap)
+
+    @property
+    def below(self) -> int:
+        """Rows below the pixel that its value depends on."""
+        return self.rows // 2 + 1
+
+    @property
+    def beside(self) -> int:
+        """Columns to the right of the pixel (and to its left) that its value depends on."""
+        return self.columns // 2 + 1
+
+    def __str__(self) -> str:
+        return f"gradient({self.rows} x {self.columns})"
+
+
+def check_odd(**sizes: int) -> None:
+    """Raise `ValueError` for a size that has no centre."""
+    for name, size in sizes.items():
+        if size % 2 == 0:
+            raise ValueError(f"{name} is {size}, but a window has a centre: use an odd size")
+
+
+KINDS: dict[str, type[Sad] | type[Census] | type[Gradient]] = {
+    "sad": Sad,
+    "census": Census,
+    "gradient": Gradient,
+}
+"""The model of each `kind` of criterion."""
+
+
+def _kind(value: Any) -> str:
+    """The kind of a criterion that may leave it out: then it is a SAD."""
+    kind = value.get("kind", "sad") if isinstance(value, dict) else getattr(value, "kind", "sad")
+    return str(kind)
+
+
+Criterion = Annotated[
+    Annotated[Sad, Tag("sad")] | Annotated[Census, Tag("census")] | Annotated[Gradient, Tag("gradient")],
+    Discriminator(_kind),
+]
+"""A further criterion is a further model here, told apart by its `kind`."""
 
 
 class Compensation(Frozen):

@@ -11,8 +11,9 @@ from typing import Any, Self
 import tomli_w
 from pydantic import BaseModel, ValidationError
 
-from softdepth.spec.criteria import Compensation, Frozen, Sad
+from softdepth.spec.criteria import KINDS, Compensation, Frozen, Sad
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
 
 
@@ -88,12 +89,22 @@ class Settings(Frozen):
 def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
     """The first validation error as one line with key, value and remedy."""
     first = error.errors(include_url=False)[0]
-    key = ".".join(str(part) for part in first["loc"])
+    place = list(first["loc"])
+    kind = str(place.pop(2)) if place[:1] == ["criteria"] and len(place) > 2 else "sad"  # a tag, no key
+    key = ".".join(map(str, place))
+    if first["type"] == "union_tag_invalid":
+        return ConfigError(
+            f"{key}.kind is {first.get('ctx', {}).get('tag')}", f"use one of {', '.join(KINDS)}"
+        )
     if first["type"] == "extra_forbidden":
-        table = {"compensation": Compensation, "criteria": Sad}.get(str(first["loc"][0]), model)
-        known = table.model_fields if len(first["loc"]) > 1 else model.model_fields
+        tables = {"compensation": Compensation, "criteria": KINDS.get(kind, Sad), "post": Post}
+        table = tables.get(str(place[0]), model)
+        known = table.model_fields if len(place) > 1 else model.model_fields
         return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(known)}")
     message = first["msg"].removeprefix("Value error, ")
+    if key and isinstance(first["input"], dict):  # values of one table that contradict
+        problem, _, remedy = message.partition(": ")
+        return ConfigError(f"{key}: {problem}", remedy or "change one of the two")
     if key:
         return ConfigError(f"{key} = {first['input']!r} is not valid", message[0].lower() + message[1:])
     problem, _, remedy = message.partition(": ")

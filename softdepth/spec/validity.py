@@ -4,14 +4,24 @@ from enum import IntEnum
 
 
 class Validity(IntEnum):
-    """The two-bit code beside every disparity, the same in the models and the gateware.
+    """The code beside every disparity, the same in the models and the gateware.
 
-    A result is a measurement when its code is below `BORDER`. Where it is not, the disparity is 0.
+    It has `Config.code_bits` bits: two where only the first three can occur, else three. A result is a
+    measurement when its code is below `BORDER`. Where there is neither measurement nor filling, the
+    disparity is 0.
     """
 
     FULL = 0
-    """All candidates ``0 .. disparities - 1`` were compared."""
+    """All candidates were compared."""
     PARTIAL = 1
-    """Some candidates were excluded, because their window leaves the other image."""
+    """Some candidates were excluded, because their window, or partner, leaves the other image."""
     BORDER = 2
     """No result: the support leaves the reference image."""
+    FILLED = 3
+    """Not measured; the disparity is that of a neighbour in the row."""
+    INCONSISTENT = 4
+    """No result: the right view's winner is another. Most such pixels are occluded."""
+    ISLAND = 5
+    """No result: too few of the neighbours have one."""
+    NOTHING = 6
+    """No result: nothing to compare, or no result in the row that could fill this pixel."""

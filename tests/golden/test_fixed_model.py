@@ -63,7 +63,7 @@ def test_excluded_candidates_never_win():
     assert (result.disparity[3:-3, 10:-3] == 7).all()
 
 
-@pytest.mark.parametrize("cost", ["fuzzy", "sad"])
+@pytest.mark.parametrize("cost", ["fuzzy", "sum"])
 def test_a_tie_goes_to_the_smallest_disparity(cost):
     config = make(cost=cost) if cost == "fuzzy" else make(cost=cost, criteria=[{"window": 3}])
     flat = np.full((12, 30, 3), 77, np.uint8)
@@ -156,7 +156,7 @@ def test_compensation_threshold_is_exclusive():
 
 @pytest.mark.parametrize("reference", ["left", "right"])
 @pytest.mark.parametrize(
-    "keys", [{}, {"operator": "min"}, SOFT, {"cost": "sad", "criteria": [{"window": 5}]}]
+    "keys", [{}, {"operator": "min"}, SOFT, {"cost": "sum", "criteria": [{"window": 5}]}]
 )
 def test_trace_agrees_with_the_map(reference, keys):
     left, right = noise(9, 22), noise(9, 22, 1)

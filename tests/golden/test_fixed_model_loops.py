@@ -39,7 +39,7 @@ def loop_sad(left, right, x, y, d, window, dx):
 
 def loop_cost(left, right, x, y, d, c):
     s = [loop_sad(left, right, x, y, d, i.window, i.dx) for i in c.criteria]
-    if c.cost == "sad":
+    if c.cost == "sum":
         return Fraction(s[0])
     tops = [2 * 2**i.label_bits for i in c.criteria]
     rule = c.compensation
@@ -124,7 +124,7 @@ def loop_model(left, right, c):
 
 
 def random_config(rng):
-    cost = rng.choice(["fuzzy", "fuzzy", "fuzzy", "sad"])
+    cost = rng.choice(["fuzzy", "fuzzy", "fuzzy", "sum"])
     membership_bits = int(rng.integers(2, 13))
 
     def criterion():
@@ -236,7 +236,7 @@ def test_random_configurations_reach_every_branch():
         for firing in ("all", "cell")
     }
     assert {c.membership_bits for c in drawn} == set(range(2, 13))
-    assert any(c.cost == "sad" for c in drawn)
+    assert any(c.cost == "sum" for c in drawn)
     assert {c.compensation.criterion for c in drawn} == set(range(4))
     soft = [c for c in drawn if c.cost == "fuzzy" and c.operator == "soft_min_2"]
     assert {c.sharpness > 0 for c in soft} == {False, True}

@@ -147,7 +147,7 @@ def test_memberships_sum_to_one():
 
 def test_sad_cost_is_the_first_criterion():
     left, right = noise(9, 16), noise(9, 16, 1)
-    config = make(cost="sad", criteria=[{"window": 5}])
+    config = make(cost="sum", criteria=[{"window": 5}])
     got = float_model.costs(left, right, config, 10, 4)
     assert got.tolist() == [eq_7(left, right, 10, 4, d, 5) for d in range(6)]
     same = fixed_model.disparity(left, right, config)

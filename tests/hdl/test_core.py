@@ -73,15 +73,15 @@ FUZZY = {"membership_bits": 6, "compensation": {"reading": "top", "min_disparity
 NEST = [sad(3, label_bits=9), sad(5, label_bits=11), sad(7, label_bits=12)]
 ROW = [sad(3, dx, label_bits=10) for dx in (-2, 0, 2)]
 CONFIGS: dict[str, Config] = {
-    "sad, 1 lane": config(cost="sad", criteria=[sad(3)], disparities=8, lanes=1),
-    "sad, 2 lanes, 3 steps": config(cost="sad", criteria=[sad(5)], disparities=6, lanes=2),
+    "sad, 1 lane": config(cost="sum", criteria=[sad(3)], disparities=8, lanes=1),
+    "sad, 2 lanes, 3 steps": config(cost="sum", criteria=[sad(5)], disparities=6, lanes=2),
     "sad, a row computed, 4 stored": config(
-        cost="sad", criteria=[sad(5)], disparities=6, lanes=2, stored_rows=4
+        cost="sum", criteria=[sad(5)], disparities=6, lanes=2, stored_rows=4
     ),
-    "sad, all lanes": config(cost="sad", criteria=[sad(3)], disparities=5, lanes=5),
-    "sad, beside": config(cost="sad", criteria=[sad(3, 3)], disparities=6, lanes=3),
-    "sad, nothing to the right": config(cost="sad", criteria=[sad(3, -1)], disparities=4, lanes=2),
-    "sad, memory rings": config(cost="sad", criteria=[sad(3)], disparities=18, lanes=1),
+    "sad, all lanes": config(cost="sum", criteria=[sad(3)], disparities=5, lanes=5),
+    "sad, beside": config(cost="sum", criteria=[sad(3, 3)], disparities=6, lanes=3),
+    "sad, nothing to the right": config(cost="sum", criteria=[sad(3, -1)], disparities=4, lanes=2),
+    "sad, memory rings": config(cost="sum", criteria=[sad(3)], disparities=18, lanes=1),
     "lite, mean, 2 lanes, 3 steps": config(criteria=ROW, disparities=6, lanes=2, **FUZZY),
     "lite, min, all lanes": config(
         criteria=ROW, disparities=4, lanes=4, operator="min", stored_rows=1, **FUZZY
@@ -236,7 +236,7 @@ def test_the_frame_after_a_damaged_one_is_exact() -> None:
 def test_a_support_of_one_row_is_refused() -> None:
     """The sequencer learns the width from the line before the first with results."""
     with pytest.raises(ConfigError, match="support of more than one row"):
-        config(cost="sad", criteria=[sad(1)], disparities=6, lanes=2)
+        config(cost="sum", criteria=[sad(1)], disparities=6, lanes=2)
 
 
 def test_frames_lower_than_the_support() -> None:

@@ -23,7 +23,7 @@ def ports(verilog: str, top: str) -> dict[str, tuple[str, int]]:
 
 @pytest.mark.parametrize(("disparities", "bits"), [(4, 2), (5, 3)])
 def test_ports_are_as_documented(disparities: int, bits: int) -> None:
-    c = config(cost="sad", criteria=[sad(3)], disparities=disparities, lanes=1)
+    c = config(cost="sum", criteria=[sad(3)], disparities=disparities, lanes=1)
     assert ports(to_verilog(c), TOP) == {
         "clk": ("input", 1),
         "rst": ("input", 1),
@@ -49,7 +49,7 @@ def test_any_component_by_any_name() -> None:
 
 
 def test_text_depends_on_the_configuration_only() -> None:
-    c = config(cost="sad", criteria=[sad(3)], disparities=4, lanes=2)
+    c = config(cost="sum", criteria=[sad(3)], disparities=4, lanes=2)
     assert to_verilog(c) == to_verilog(Config.from_dict(c.model_dump(mode="json")))
 
 

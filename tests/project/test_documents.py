@@ -8,7 +8,7 @@ from pydantic import BaseModel
 
 from softdepth.cli.app import app
 from softdepth.run.report import FILES, Accuracy, Report
-from softdepth.spec.config import PRESETS, Compensation, Config, Sad
+from softdepth.spec.config import PRESETS, Census, Compensation, Config, Gradient, Post, Sad
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 
@@ -28,7 +28,15 @@ def section(text: str, heading: str) -> str:
 
 
 @pytest.mark.parametrize(
-    ("heading", "model"), [("## Keys", Config), ("### criteria", Sad), ("### compensation", Compensation)]
+    ("heading", "model"),
+    [
+        ("## Keys", Config),
+        ("### sad", Sad),
+        ("### census", Census),
+        ("### gradient", Gradient),
+        ("### compensation", Compensation),
+        ("### post", Post),
+    ],
 )
 def test_every_configuration_key_is_documented(project, heading, model: type[BaseModel]):
     text = section((project / "docs" / "configuration.md").read_text(), heading)

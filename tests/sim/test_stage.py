@@ -126,7 +126,7 @@ def test_a_tie() -> None:
             {"criteria or argmin"},
         ),
     ],
-    ids=["fuzzy", "sad"],
+    ids=["fuzzy", "sum"],
 )
 def test_a_dearer_candidate(pair: tuple[Image, Image], config: Config, stages_named: set[str]) -> None:
     """The criteria of both candidates decide whether argmin is among the stages; the costs are told."""
@@ -142,6 +142,6 @@ def test_a_dearer_candidate(pair: tuple[Image, Image], config: Config, stages_na
         assert found.endswith(f"; {best} costs {n[best]}/{s[best]}, {d} costs {n[d]}/{s[d]}")
         stage = found.partition(" (")[0].partition(";")[0]
         worse = (trace.criteria[d] >= trace.criteria[best]).all()
-        assert config.cost == "sad" or (stage == "criteria, inference or argmin") == worse
+        assert config.cost == "sum" or (stage == "criteria, inference or argmin") == worse
         named.add(stage)
     assert named == stages_named

@@ -111,7 +111,7 @@ def fraction(values: Sequence[int], near: bool, config: Config) -> tuple[int, in
 
     A sum S that is not above zero judges nothing: the cost is infinite, 1 / 0.
     """
-    if config.cost == "sad":
+    if config.cost == "sum":
         return values[0], 1
     inputs = compensated(values, near, config)
     degrees = [memberships(v, c.label_bits, config) for v, c in zip(inputs, config.criteria, strict=True)]

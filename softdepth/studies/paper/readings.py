@@ -57,7 +57,7 @@ class Reading:
 
         The compensating rule `rule` looks at criterion number `judge`, from one.
         """
-        cost = "sad" if self.method == "sad" else "fuzzy"
+        cost = "sum" if self.method == "sad" else "fuzzy"
         base: dict[str, Any] = {
             "name": self.name,
             "disparities": self.candidates,

@@ -94,7 +94,7 @@ def test_a_denominator_of_zero_or_below_gives_one_over_zero() -> None:
 
 
 def test_sad_cost_is_the_criterion_itself() -> None:
-    c = config(cost="sad", criteria=[sad(5)])
+    c = config(cost="sum", criteria=[sad(5)])
     values = [0, 1, 4096, c.criteria[0].maximum]
-    got = piped(COSTS["sad"](c), [{"i": {"s0": v}, "near": 1} for v in values])
+    got = piped(COSTS["sum"](c), [{"i": {"s0": v}, "near": 1} for v in values])
     assert [(o.num, o.den) for o in got] == [(v, 0) for v in values]

@@ -16,7 +16,7 @@ TOP = {"reading": "top", "threshold": 1500}
 @pytest.mark.parametrize(
     "keys",
     [
-        {"cost": "sad", "criteria": [sad(5, 1)]},
+        {"cost": "sum", "criteria": [sad(5, 1)]},
         {"operator": "mean", "criteria": [sad(3, -1, 10), sad(3, 0, 10), sad(1, 2, 9)], "compensation": TOP},
         {"operator": "mean", "criteria": [sad(3), sad(5), sad(7)], "stored_rows": 4},
         {"operator": "min", "criteria": [sad(1, 0, 8), sad(3, 0, 11), sad(5, 0, 12)], "compensation": TOP},

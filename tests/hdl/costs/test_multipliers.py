@@ -52,7 +52,7 @@ def test_multipliers_are_those_of_the_core(keys: dict[str, Any], count: int) -> 
 
 
 def test_plain_sad_takes_none() -> None:
-    c = config(cost="sad", criteria=[sad(3)], disparities=4, lanes=2, operator="prod", max_multipliers=0)
+    c = config(cost="sum", criteria=[sad(3)], disparities=4, lanes=2, operator="prod", max_multipliers=0)
     assert c.multipliers == len(multiplications(c)) == 0
 
 

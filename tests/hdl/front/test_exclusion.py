@@ -20,7 +20,7 @@ def test_candidates_beyond_the_room(steps: int, lanes: int, gaps: float) -> None
     Before a line's first inner pixel the outputs say nothing. In clocks without a step the other
     inputs are anything.
     """
-    c = config(disparities=steps * lanes, lanes=lanes, cost="sad", criteria=[sad(3)])
+    c = config(disparities=steps * lanes, lanes=lanes, cost="sum", criteria=[sad(3)])
     random = Random(steps * lanes)
     widths = [1, 2, c.disparities - 1, c.disparities, c.disparities + 6, 1, c.disparities // 2 + 1, 3]
     drive: list[Ports] = []
@@ -48,7 +48,7 @@ def test_candidates_beyond_the_room(steps: int, lanes: int, gaps: float) -> None
 
 def test_a_wide_line_stays_without_exclusions() -> None:
     """What counts does not wrap once all candidates have room."""
-    c = config(disparities=6, lanes=3, cost="sad", criteria=[sad(3)])
+    c = config(disparities=6, lanes=3, cost="sum", criteria=[sad(3)])
     pixels = 200
     drive: list[Ports] = [
         {"valid": 1, "first": step == 0, "starts": inner == 0}

@@ -12,7 +12,7 @@ from tests.support.simulation import Transfers, config, pair, sad, stream_throug
 MAX_WIDTH = 10
 MAX_HEIGHT = 8
 CONFIG = config(
-    cost="sad", criteria=[sad(3)], disparities=4, lanes=2, max_width=MAX_WIDTH, max_height=MAX_HEIGHT
+    cost="sum", criteria=[sad(3)], disparities=4, lanes=2, max_width=MAX_WIDTH, max_height=MAX_HEIGHT
 )
 MIN_WIDTH = CONFIG.min_width
 
@@ -45,7 +45,7 @@ def test_sound_frames_pass_unchanged(rates: tuple[float, float]) -> None:
 @pytest.mark.parametrize("dx", [-2, -1, 0, 1, 2])
 def test_places_for_any_support(dx: int) -> None:
     """`frames` checks them; the support reaches further to one side, and to the other not at all."""
-    c = config(cost="sad", criteria=[sad(3, dx)], disparities=4, lanes=2, max_width=12, max_height=MAX_HEIGHT)
+    c = config(cost="sum", criteria=[sad(3, dx)], disparities=4, lanes=2, max_width=12, max_height=MAX_HEIGHT)
     sent = [lines(n, width, 3) for n, width in enumerate((c.min_width, 12, 7, 7))]
     transfers = list(chain.from_iterable(map(source, sent)))
     result = stream_through(FrameGuard(c), transfers, i_rate=0.8, o_rate=0.8, seed=dx + 9)

@@ -24,7 +24,7 @@ def test_lanes_and_steps_share_the_candidates_in_segments(disparities: int, lane
 @pytest.mark.parametrize("lanes", [2, 3])
 @pytest.mark.parametrize("steps", [1, 2, 3, 4, 10, 16])
 def test_column_of_each_candidate(steps: int, lanes: int, gaps: float) -> None:
-    c = config(disparities=steps * lanes, lanes=lanes, cost="sad", criteria=[sad(3)])
+    c = config(disparities=steps * lanes, lanes=lanes, cost="sum", criteria=[sad(3)])
     random = Random(steps * lanes)
     pixels = c.disparities + 12
     row = [random.getrandbits(BITS) for _ in range(pixels)]

@@ -179,12 +179,12 @@ def check(c: Config, frames: list[Sent], record: Record) -> None:
 
 
 CONFIGS = {
-    "3x3, one step": config(cost="sad", criteria=[sad(3)], disparities=4, lanes=4),
-    "3x3, four steps": config(cost="sad", criteria=[sad(3)], disparities=4, lanes=1),
-    "5x5, three steps": config(cost="sad", criteria=[sad(5)], disparities=6, lanes=2),
+    "3x3, one step": config(cost="sum", criteria=[sad(3)], disparities=4, lanes=4),
+    "3x3, four steps": config(cost="sum", criteria=[sad(3)], disparities=4, lanes=1),
+    "5x5, three steps": config(cost="sum", criteria=[sad(5)], disparities=6, lanes=2),
     "lite": config(criteria=[sad(3, -2), sad(3), sad(3, 2)], disparities=6, lanes=3),
-    "nothing to the right": config(cost="sad", criteria=[sad(3, -1)], disparities=4, lanes=2),
-    "far to the right": config(cost="sad", criteria=[sad(3, 5)], disparities=4, lanes=2),
+    "nothing to the right": config(cost="sum", criteria=[sad(3, -1)], disparities=4, lanes=2),
+    "far to the right": config(cost="sum", criteria=[sad(3, 5)], disparities=4, lanes=2),
 }
 
 

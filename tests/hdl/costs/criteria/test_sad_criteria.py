@@ -30,7 +30,7 @@ CASES: dict[str, list[dict[str, int]]] = {
 def test_sums_of_every_candidate(name: str, share: float, steps: int) -> None:
     """Lines follow one another until all stored rows are known; `share` of the rows above are stored."""
     criteria = CASES[name]
-    keys = {"cost": "fuzzy" if len(criteria) == 3 else "sad", "criteria": criteria}
+    keys = {"cost": "fuzzy" if len(criteria) == 3 else "sum", "criteria": criteria}
     c = config(**keys, disparities=2 * steps, lanes=2)
     c = config(**keys, disparities=2 * steps, lanes=2, stored_rows=int(share * 2 * c.reach_rows))
     random = Random(len(name))

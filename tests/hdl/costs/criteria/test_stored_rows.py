@@ -16,7 +16,7 @@ from tests.support.simulation import config, sad
 @pytest.mark.parametrize(
     ("keys", "most"),
     [
-        ({"cost": "sad", "criteria": [sad(3)]}, 2),
+        ({"cost": "sum", "criteria": [sad(3)]}, 2),
         ({"criteria": [sad(3), sad(5), sad(7)]}, 6),
         ({"criteria": [sad(1), sad(9, 2), sad(3)]}, 8),
     ],

@@ -8,5 +8,5 @@ set period 10.000
 
 create_clock -name clk -period $period [get_ports clk]
 
-set_input_delay  -clock clk [expr {0.5 * $period}] [get_ports {rst i__valid i__payload* o__ready}]
-set_output_delay -clock clk [expr {0.5 * $period}] [get_ports {i__ready o__valid o__payload* status*}]
+set_input_delay  -clock clk [expr {0.5 * $period}] [get_ports {rst i_valid i_payload* o_ready}]
+set_output_delay -clock clk [expr {0.5 * $period}] [get_ports {i_ready o_valid o_payload* status*}]

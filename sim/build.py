@@ -28,8 +28,8 @@ from softdepth.spec.errors import ToolError
 TOP = "softdepth_core"
 """Module and program name of every simulated design."""
 
-INPUTS = ("clk", "rst", "i__valid", "i__payload", "o__ready")
-OUTPUTS = ("i__ready", "o__valid", "o__payload", "status")
+INPUTS = ("clk", "rst", "i_valid", "i_payload", "o_ready")
+OUTPUTS = ("i_ready", "o_valid", "o_payload", "status")
 
 VERILATOR_FLAGS = (
     *("--cc", "--exe", "--vpi", "--no-timing", "--top-module", TOP, "--prefix", "Vtop", "-o", TOP),

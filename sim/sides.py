@@ -24,7 +24,7 @@ class Source:
     """
 
     def __init__(self, dut: Any, job: Job) -> None:
-        self._valid, self._ready, self._payload = dut.i__valid, dut.i__ready, dut.i__payload
+        self._valid, self._ready, self._payload = dut.i_valid, dut.i_ready, dut.i_payload
         self._transfers: list[int] = job.transfers.tolist()
         self._gaps = dict(job.gaps)
         self._gap = 0
@@ -77,7 +77,7 @@ class Sink:
     """
 
     def __init__(self, dut: Any, job: Job) -> None:
-        self._valid, self._ready, self._payload = dut.o__valid, dut.o__ready, dut.o__payload
+        self._valid, self._ready, self._payload = dut.o_valid, dut.o_ready, dut.o_payload
         self._paused = _paused_clocks(job.stalls.output)
         self._held: str | None = None
         self.payloads: list[str] = []

@@ -1,22 +1,21 @@
 """Amaranth gateware into a netlist of a part's cells, by yosys."""
 
-import gc
 import json
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from amaranth.back import rtlil
 from amaranth.lib.wiring import Component
 
-from softdepth.flow.collisions import waive_collisions
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.multiplier_registers import absorb_multiplier_registers
 from softdepth.flow.netlist import Netlist
 from softdepth.flow.ram_registers import absorb_ram_registers
-from softdepth.flow.share import share
 from softdepth.flow.tools import find_tool
+from softdepth.hdl.text.collisions import waive_collisions
+from softdepth.hdl.text.rtlil import to_rtlil
+from softdepth.hdl.text.share import share
 from softdepth.spec.boards import Family
 from softdepth.spec.config import Config
 
@@ -54,16 +53,9 @@ _PADS: dict[Family, str] = {
 _JOIN = "setattr -mod -unset keep_hierarchy; flatten; opt_merge; opt_clean"
 
 
-def to_rtlil(design: Component) -> str:
-    """RTLIL of a component, with equal modules once."""
-    enabled = gc.isenabled()
-    gc.disable()  # elaboration makes millions of objects that all live to its end
-    try:
-        text = rtlil.convert(design, name=TOP, emit_src=False)
-    finally:
-        if enabled:
-            gc.enable()
-    return share(waive_collisions(text))
+def to_shared_rtlil(design: Component) -> str:
+    """RTLIL of a component called `TOP`, with equal modules once."""
+    return share(waive_collisions(to_rtlil(design, TOP)))
 
 
 def synthesise(
@@ -85,7 +77,7 @@ def synthesise(
 
     Raises `ToolError` where yosys is missing or fails.
     """
-    text = design if isinstance(design, str) else to_rtlil(design)
+    text = design if isinstance(design, str) else to_shared_rtlil(design)
     (folder / "design.il").write_text(text)
     command = " ".join((COMMANDS[family], *options))
     script = f"read_rtlil design.il; {command}; {_JOIN}; {_PADS[family]} write_json mapped.json"

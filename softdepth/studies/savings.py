@@ -17,7 +17,7 @@ from softdepth import screen
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.limits import taken
 from softdepth.flow.ram_registers import absorb_ram_registers
-from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_rtlil
+from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_shared_rtlil
 from softdepth.spec.config import OPERATORS, Config
 from softdepth.spec.errors import InputError, SoftdepthError
 from softdepth.spec.rules import Firing
@@ -66,7 +66,7 @@ def measure(config: Config, variant: Variant) -> dict[str, int]:
     """LUT4s, flip-flops, block RAMs and multipliers of one lane."""
     from softdepth.hdl.costs.lane import Lane  # elaboration is slow to import
 
-    text = to_rtlil(Lane(config.override(variant.changes)))
+    text = to_shared_rtlil(Lane(config.override(variant.changes)))
     if variant.collisions:
         text = text.replace("\\COLLISION_X_MASK 1'1", "\\COLLISION_X_MASK 1'0")
     with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:

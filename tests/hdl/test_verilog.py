@@ -1,4 +1,4 @@
-"""Verilog: the documented ports, for every operator; memories in few lines."""
+"""Verilog: the documented ports, for every operator; plain names; memories in few lines."""
 
 import re
 
@@ -9,6 +9,7 @@ from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.text.words import PLAIN, plain_names
 from softdepth.hdl.verilog import TOP, to_verilog
 from softdepth.spec.config import OPERATORS, Config
 from tests.support.simulation import config, sad
@@ -27,12 +28,12 @@ def test_ports_are_as_documented(disparities: int, bits: int) -> None:
     assert ports(to_verilog(c), TOP) == {
         "clk": ("input", 1),
         "rst": ("input", 1),
-        "i__payload": ("input", 24 + 24 + 3),
-        "i__valid": ("input", 1),
-        "i__ready": ("output", 1),
-        "o__payload": ("output", bits + 2 + 4),
-        "o__valid": ("output", 1),
-        "o__ready": ("input", 1),
+        "i_payload": ("input", 24 + 24 + 3),
+        "i_valid": ("input", 1),
+        "i_ready": ("output", 1),
+        "o_payload": ("output", bits + 2 + 4),
+        "o_valid": ("output", 1),
+        "o_ready": ("input", 1),
         "status": ("output", 4 * 16),
     }
 
@@ -56,7 +57,7 @@ def test_text_depends_on_the_configuration_only() -> None:
 @pytest.mark.parametrize("operator", OPERATORS)
 def test_every_operator_has_gateware(operator: str) -> None:
     c = config(criteria=[sad(3, dx) for dx in (-1, 0, 1)], disparities=2, lanes=1, operator=operator)
-    assert ports(to_verilog(c), TOP)["o__payload"] == ("output", 1 + 2 + 4)
+    assert ports(to_verilog(c), TOP)["o_payload"] == ("output", 1 + 2 + 4)
 
 
 def stored(words: list[int], width: int = 4) -> str:
@@ -82,18 +83,73 @@ def stored(words: list[int], width: int = 4) -> str:
 
 
 @pytest.mark.parametrize("words", [2, 3, 1000])
-def test_memories_are_cleared_by_a_loop(words: int) -> None:
-    """All words, and without a line for each."""
+def test_memories_are_clear_in_simulation_alone(words: int) -> None:
+    """All words, and without a line for each; synthesis sees no initial word."""
     text = stored([0] * words)
-    (loop,) = re.findall(r"initial begin : (\w+)\n.*?\n  end\n", text, re.DOTALL)
-    (memory,) = re.findall(rf"reg \[3:0\] (\w+) \[{words - 1}:0\];", text)
-    assert loop == f"clear_{memory}"
-    assert f"for (k = 0; k < {words}; k = k + 1)\n      {memory}[k] = 4'h0;\n" in text
+    simulated, synthesised = (preprocessed(text, synthesis) for synthesis in (False, True))
+    (memory,) = re.findall(rf"reg \[3:0\] (\w+) \[{words - 1}:0\];", synthesised)
+    assert (
+        f"for (word = 0; word <= {words - 1}; word = word + 1)\n      {memory}[word] = 4'h0;\n" in simulated
+    )
+    assert "initial" not in synthesised
     assert not re.search(rf"{memory}\[\d+\] =", text)
 
 
 @pytest.mark.parametrize("words", [[0, 0, 5], [5, 0, 0], [0, 5, 0], [7, 7, 7]])
 def test_other_initial_words_stay(words: list[int]) -> None:
-    text = stored(words)
-    assert "for (" not in text
-    assert [int(w, 16) for w in re.findall(r"\w+\[\d+\] = 4'h(\w);", text)] == words
+    for synthesis in (False, True):
+        text = preprocessed(stored(words), synthesis)
+        assert "for (" not in text
+        assert [int(w, 16) for w in re.findall(r"\w+\[\d+\] = 4'h(\w);", text)] == words
+
+
+def preprocessed(text: str, synthesis: bool) -> str:
+    """What is left of the text where `SYNTHESIS` is defined, or is not."""
+    return re.sub(r"^`ifndef SYNTHESIS\n(.*?)`endif\n", "" if synthesis else r"\1", text, flags=re.M | re.S)
+
+
+def test_choices_are_expressions() -> None:
+    """SystemVerilog wakes no `always @*` at time 0 for registers that begin with a value."""
+    c = config(criteria=[sad(3, dx) for dx in (-1, 0, 1)], disparities=4, lanes=2)
+    text = to_verilog(c)
+    assert "always @*" not in text
+    assert set(re.findall(r"always [^\n]*", text)) <= {"always @(posedge clk)", "always @(posedge clk) begin"}
+
+
+def test_names_are_plain() -> None:
+    """No escaped name anywhere; those of ports are legal in VHDL, too."""
+    c = config(criteria=[sad(3, dx) for dx in (-1, 0, 1)], disparities=4, lanes=2)
+    text = to_verilog(c)
+    assert "\\" not in text
+    assert all(PLAIN.fullmatch(name) for name in ports(text, TOP))
+
+
+def test_plain_names_stay_apart() -> None:
+    """Also from those that were there, from each other, and from words of SystemVerilog."""
+    text = "wire a_1; wire \\a$1 ; wire \\a.1 ; wire \\bit ; assign \\a.1  = \\a$1 ;\n"
+    assert plain_names(text) == "wire a_1; wire a_1_1; wire a_1_2; wire bit_1; assign a_1_2 = a_1_1;\n"
+
+
+def test_two_cores_have_no_module_in_common() -> None:
+    c = config(cost="sad", criteria=[sad(3)], disparities=4, lanes=2)
+    first, second = (
+        set(re.findall(r"^module (\w+)", to_verilog(c, name), re.MULTILINE)) for name in ("first", "second")
+    )
+    assert len(first) == len(second) > 5
+    assert not first & second
+
+
+def test_equal_lanes_are_written_once() -> None:
+    c = config(cost="sad", criteria=[sad(3)], disparities=16, lanes=8)
+    text = to_verilog(c)
+    assert len(re.findall(r"^module \w+_lane_\d+\(", text, re.MULTILINE)) == 1
+    assert len(re.findall(r"^  \w+_lane_\d+ lane_\d+ ", text, re.MULTILINE)) == 8
+
+
+def test_ports_that_would_share_a_name_are_refused() -> None:
+    class Twice(wiring.Component):
+        a_b: In(1)
+        a: Out(wiring.Signature({"b": Out(1)}))
+
+    with pytest.raises(ValueError, match="'a_b'"):
+        to_verilog(Twice(), name="twice")

@@ -170,7 +170,7 @@ def test_a_bench_that_fails_is_one_line(stand_in: DesignOf, transfers: Payloads)
 
 @pytest.mark.usefixtures("_logs_elsewhere")
 def test_a_design_that_ends_the_simulation(stand_in: DesignOf, transfers: Payloads) -> None:
-    design = stand_in().replace("endmodule", "always @(posedge clk) if (i__valid) $finish; endmodule", 1)
+    design = stand_in().replace("endmodule", "always @(posedge clk) if (i_valid) $finish; endmodule", 1)
     with pytest.raises(ToolError, match="the simulator stopped"):
         run_stream(design, Job(transfers, expected=PIXELS))
 

@@ -8,11 +8,11 @@ from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.flow.collisions import waive_collisions
 from softdepth.flow.limits import taken
-from softdepth.flow.share import share
 from softdepth.flow.synthesis import TOP, core_netlist, synthesise
 from softdepth.hdl.core import StereoCore
+from softdepth.hdl.text.collisions import waive_collisions
+from softdepth.hdl.text.share import share
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ToolError
 

@@ -35,7 +35,7 @@ class _Module:
     children: Counter[str]
 
 
-def share(rtlil: str, *, smallest: int = SMALLEST_KEPT) -> str:
+def share(rtlil: str, *, smallest: float = SMALLEST_KEPT) -> str:
     """RTLIL of the same design with equal modules once.
 
     The outermost modules of several instances get the attribute ``keep_hierarchy``: yosys then flattens
@@ -44,7 +44,7 @@ def share(rtlil: str, *, smallest: int = SMALLEST_KEPT) -> str:
     Parameters
     ----------
     rtlil : the text of a design as Amaranth writes it; its top module has the attribute ``top``.
-    smallest : modules of fewer cells, submodules included, are left to be flattened.
+    smallest : modules of fewer cells, submodules included, are left to be flattened; ``inf`` keeps none.
     """
     # In a module that is mapped by itself, yosys' ABC9 takes a wire called `a[3]` for bit 3 of port `a`.
     rtlil = _ELEMENT.sub(lambda name: name[0].replace("[", ":").replace("]", ""), rtlil)
@@ -117,7 +117,7 @@ def _canonical(text: str) -> str:
     return "\n".join(map(line_of, _PLACE.sub("", text).splitlines()))
 
 
-def _outermost_repeated(modules: dict[str, _Module], top: str, smallest: int) -> set[str]:
+def _outermost_repeated(modules: dict[str, _Module], top: str, smallest: float) -> set[str]:
     """Modules large enough that occur several times, and lie in no other such module."""
     sizes: dict[str, int] = {}
 

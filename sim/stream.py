@@ -11,6 +11,7 @@ from pathlib import Path
 
 from cocotb_tools.runner import get_runner
 
+from softdepth.files import move_in
 from softdepth.sim.build import TOP, build
 from softdepth.sim.job import JOB_VARIABLE, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
 from softdepth.spec.errors import ToolError
@@ -66,7 +67,7 @@ def run_stream(
             raise ToolError(f"the simulator stopped: {_reason(log)}", f"see {log}")
         record = Record.load(path.with_suffix(RECORD_SUFFIX))
         if waves is not None:
-            shutil.move(folder / "dump.vcd", waves)
+            move_in(folder / "dump.vcd", waves)
     except ToolError:
         raise  # its log is left for the user to read
     except BaseException:

@@ -1,5 +1,6 @@
 """Where results and caches lie, and how they get there: complete, or not at all."""
 
+import errno
 import os
 import shutil
 import tempfile
@@ -14,6 +15,9 @@ from softdepth.spec.errors import InputError
 LAST = "report.json"
 """A run's file that is moved in last: where it lies, all the rest lies too."""
 
+MAX_LINKS = 40
+"""How many links may follow each other, as in Linux."""
+
 
 def cache_folder() -> Path:
     """Where builds and other work worth keeping lie: ``$SOFTDEPTH_CACHE``, or the user's cache folder."""
@@ -23,28 +27,95 @@ def cache_folder() -> Path:
 def write_atomically(path: str | Path, data: bytes) -> None:
     """Write a file under a temporary name beside its place, then rename it: nobody sees half of it.
 
+    A link stays one: what it leads to is replaced. A device, a FIFO, a pipe or a file that is open already
+    (``/dev/stdout``) is written to as it is. A file that is replaced keeps its permissions.
+
     Raises
     ------
-    InputError : a folder that is missing or is none, a path that is a folder, no right to write, or
-        a full disk. The file that was there before is left as it was.
+    InputError : a folder that is missing or is none, a path that is a folder, no right to write, a reader
+        that has gone, or a full disk. The regular file that was there before is left as it was.
     """
     path = Path(path)
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    remedy = "give a path in a folder that you may write"
-    try:
+    with _writing(path):
         if path.is_dir():
             raise InputError(f"'{path}' is a folder", "name a file in it")
+        place = _replaceable(path)
+        if place is None:
+            _write_through(path, data)
+            return
+        part = place.with_name(f".{place.name}.{os.getpid()}.part")
         try:
             part.write_bytes(data)
-            part.replace(path)
+            if place.exists():
+                shutil.copymode(place, part)
+            part.replace(place)
         finally:
             part.unlink(missing_ok=True)
+
+
+def check_writable(path: str | Path) -> None:
+    """Raise `InputError` where `write_atomically` could not write, so far as can be told before long work."""
+    path = Path(path)
+    with _writing(path):
+        if path.is_dir():
+            raise InputError(f"'{path}' is a folder", "name a file in it")
+        place = _replaceable(path)
+        folder = place.parent if place else path
+        folder.stat()
+        if place and not folder.is_dir():
+            raise NotADirectoryError
+        if not os.access(folder, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Tell what the system says about writing to `path` as a user reads it."""
+    remedy = "give a path in a folder that you may write"
+    try:
+        yield
     except FileNotFoundError as error:
         raise InputError(f"folder '{path.parent}' does not exist", "create it first") from error
     except NotADirectoryError as error:
         raise InputError(f"cannot write '{path}': part of the path is a file", remedy) from error
     except OSError as error:
         raise InputError(f"cannot write '{path}': {error.strerror or error}", remedy) from error
+
+
+def _replaceable(path: Path) -> Path | None:
+    """The regular file, there or to be made, that a path leads to; None for what is no such file.
+
+    What is reached through ``/proc`` is open already: to replace its file would leave who has it open with
+    the old one.
+    """
+    for _ in range(MAX_LINKS):
+        if path.parent.resolve().is_relative_to("/proc"):
+            return None
+        if not path.is_symlink():
+            return path if path.is_file() or not path.exists() else None
+        path = path.parent / path.readlink()
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+
+
+def _write_through(path: Path, data: bytes) -> None:
+    with open(os.open(path, os.O_WRONLY | os.O_APPEND), "wb") as file:
+        file.write(data)
+
+
+def move_in(source: Path, target: Path) -> None:
+    """Move a file to `target`: it replaces a regular file, and goes through what is none, or a link.
+
+    Raises `OSError` as the system does.
+    """
+    place = _replaceable(target)
+    if place == target:
+        shutil.move(source, target)
+        return
+    if place is None:
+        _write_through(target, source.read_bytes())
+    else:
+        shutil.move(source, place)
+    source.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -84,8 +155,8 @@ def _open(target: Path) -> Path:
         target.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=target):
             pass
-        # beside the target, so that moving in is renaming
-        return Path(tempfile.mkdtemp(dir=target.absolute().parent, prefix=f".{target.name}-"))
+        # In the target, which may be a link or a disk of its own: so moving in is renaming.
+        return Path(tempfile.mkdtemp(dir=target, prefix=".softdepth-"))
     except OSError as error:
         raise _unwritable(target, error) from error
 
@@ -97,7 +168,7 @@ def _move(workplace: Path, target: Path, stale: tuple[str, ...], last: str) -> N
         for name in set(stale) - {file.name for file in files}:
             (target / name).unlink(missing_ok=True)
         for file in files:
-            os.replace(file, target / file.name)
+            move_in(file, target / file.name)
     except OSError as error:
         raise _unwritable(target, error) from error
 

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -19,8 +19,9 @@ def console(*, stderr: bool = False) -> Console:
 
 
 def note(text: str) -> None:
-    """One line for the user's eyes, kept apart from results: it goes to standard error."""
-    print(text, file=sys.stderr, flush=True)
+    """One line for the user's eyes, kept apart from results: it goes to standard error, or nowhere."""
+    with suppress(OSError):  # a result must not be lost because nobody can be told about it
+        print(text, file=sys.stderr, flush=True)
 
 
 @contextmanager

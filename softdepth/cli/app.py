@@ -1,6 +1,5 @@
 """The command line. `main` turns every problem of the user's into one line and an exit code."""
 
-import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Annotated
@@ -8,15 +7,9 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
+from softdepth import ending
 from softdepth.cli import bench, board, build, compare, export, info, listing, paper, run, utilization
-from softdepth.spec.errors import SoftdepthError
-
-EXIT_MISMATCH = run.EXIT_MISMATCH
-"""The gateware and the fixed model disagree."""
-EXIT_ERROR = 2
-"""The command could not be carried out."""
-EXIT_INTERRUPTED = 130
-"""Stopped with Ctrl-C."""
+from softdepth.spec.errors import InputError
 
 app = typer.Typer(
     name="softdepth",
@@ -57,13 +50,11 @@ def _common(
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (default: the process's arguments) and return its exit code."""
+    return ending.ended(lambda: _run(arguments))
+
+
+def _run(arguments: Sequence[str] | None) -> int | None:
     try:
-        return app(arguments, standalone_mode=False) or 0
-    except SoftdepthError as error:
-        message = str(error)
+        return app(arguments, standalone_mode=False)
     except TyperException as error:
-        message = f"{error.format_message().rstrip('.')}; see softdepth --help"
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
-    print(f"error: {message}", file=sys.stderr)
-    return EXIT_ERROR
+        raise InputError(error.format_message().rstrip("."), "see softdepth --help") from error

@@ -1,6 +1,5 @@
 """``softdepth export``: a configured core as Verilog."""
 
-import os
 import re
 from importlib.metadata import version
 from pathlib import Path
@@ -11,7 +10,6 @@ import typer
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.spec.config import Config
-from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
     from amaranth.lib.data import StructLayout
@@ -35,9 +33,10 @@ def export(
         preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
     )
     on_screen = str(output) == "-"
+    from softdepth.files import check_writable, write_atomically
+
     if not on_screen:
-        _check_target(output)
-    from softdepth.files import write_atomically
+        check_writable(output)
     from softdepth.hdl.verilog import TOP, to_verilog
 
     verilog = to_verilog(chosen)
@@ -47,16 +46,6 @@ def export(
         return
     write_atomically(output, text.encode())
     screen.note(f"{output}: module {TOP}, configuration {chosen.name} ({chosen.hash})")
-
-
-def _check_target(output: Path) -> None:
-    """Raise `InputError` where no file can be written, before the core is elaborated."""
-    if output.is_dir():
-        raise InputError(f"'{output}' is a folder", "name a file in it")
-    if not output.parent.is_dir():
-        raise InputError(f"folder '{output.parent}' does not exist", "create it first")
-    if not os.access(output.parent, os.W_OK):
-        raise InputError(f"folder '{output.parent}' may not be written", "choose another with -o")
 
 
 def header(config: Config, verilog: str) -> str:

@@ -5,12 +5,11 @@ from typing import Annotated, Literal
 
 import typer
 
+from softdepth import ending, screen
 from softdepth import files as results
-from softdepth import screen
 from softdepth.spec.config import OPERATORS
 from softdepth.spec.errors import ConfigError, InputError
 
-EXIT_MISMATCH = 1
 AREA = Path("docs/area.json")
 
 
@@ -74,7 +73,7 @@ def paper(
     print(f"\nresults: {output / 'paper.html'}")
     if found.summary.rtl_mismatches:
         screen.note(f"error: gateware and fixed-point model differ in {found.summary.rtl_mismatches} pixels")
-        raise typer.Exit(EXIT_MISMATCH)
+        raise typer.Exit(ending.MISMATCH)
 
 
 def _chosen(names: list[str] | None, option: str, known: tuple[str, ...], engine: str) -> list[str]:

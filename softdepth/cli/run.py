@@ -5,15 +5,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from softdepth import screen
+from softdepth import ending, screen
 from softdepth.cli import options, pairs
 from softdepth.spec.config import Config
 
 if TYPE_CHECKING:
     from softdepth.golden.data.images import StereoPair
     from softdepth.run.measure import Measurement
-
-EXIT_MISMATCH = 1
 
 
 def run(
@@ -54,7 +52,7 @@ def run(
 
 
 def fail_on_mismatch(pair: "StereoPair", config: Config, measurement: "Measurement") -> None:
-    """End the command with `EXIT_MISMATCH` where gateware and fixed model differ, and show where."""
+    """End the command with `ending.MISMATCH` where gateware and fixed model differ, and show where."""
     mismatches, gateware = measurement.mismatches(), measurement.gateware
     if not mismatches or gateware is None:
         return
@@ -63,4 +61,4 @@ def fail_on_mismatch(pair: "StereoPair", config: Config, measurement: "Measureme
     screen.note(f"error: gateware and fixed-point model differ in {len(mismatches)} pixels, first of them:")
     for line in explain(config, [(pair.left, pair.right)], [measurement.maps["fixed"]], [gateware]):
         screen.note(f"  {line}")
-    raise typer.Exit(EXIT_MISMATCH)
+    raise typer.Exit(ending.MISMATCH)

@@ -6,12 +6,13 @@ OUT holds a folder for each board, as `softdepth build` makes them.
 import sys
 from pathlib import Path
 
+from softdepth.ending import ended
 from softdepth.files import write_atomically
 from softdepth.flow.bitstream import MANIFEST, Manifest
 from softdepth.flow.route import WORDS
 from softdepth.spec.boards import BOARDS, Board
 from softdepth.spec.config import Config
-from softdepth.spec.errors import InputError, SoftdepthError
+from softdepth.spec.errors import InputError
 from softdepth.studies import markers
 
 DOCUMENT = Path("docs/flow.md")
@@ -75,7 +76,4 @@ def main(folder: Path, project: Path) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1]), Path.cwd())
-    except SoftdepthError as problem:
-        sys.exit(f"error: {problem}")
+    sys.exit(ended(lambda: main(Path(sys.argv[1]), Path.cwd())))

@@ -8,9 +8,10 @@ import json
 import sys
 from pathlib import Path
 
+from softdepth.ending import ended
 from softdepth.run.measure import Engine
 from softdepth.run.report import Report
-from softdepth.spec.errors import InputError, SoftdepthError
+from softdepth.spec.errors import InputError
 from softdepth.studies import markers
 
 PART = "figures"
@@ -106,7 +107,4 @@ def shrink(source: Path, target: Path) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1]), Path.cwd())
-    except SoftdepthError as problem:
-        sys.exit(f"error: {problem}")
+    sys.exit(ended(lambda: main(Path(sys.argv[1]), Path.cwd())))

@@ -14,12 +14,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from softdepth import screen
+from softdepth.ending import ended
+from softdepth.files import write_atomically
 from softdepth.flow.fuse import fuse_carries
 from softdepth.flow.limits import taken
 from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_shared_rtlil
 from softdepth.spec.config import OPERATORS, Config
-from softdepth.spec.errors import InputError, SoftdepthError
+from softdepth.spec.errors import InputError
 from softdepth.spec.rules import Firing
 from softdepth.studies import markers
 
@@ -125,19 +127,15 @@ def operator_page(found: dict[Firing, dict[str, dict[str, int]]]) -> str:
 
 def main() -> None:
     """Measure and write the tables into the document."""
-    try:
-        if not DOCUMENT.is_file():
-            raise InputError(f"'{DOCUMENT}' is not here", "run this in the project's folder")
-        lanes = operators()
-        text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), "operators", operator_page(lanes))
-        text = markers.renew(text, str(DOCUMENT), "savings", page())
-    except SoftdepthError as error:
-        print(f"error: {error}", file=sys.stderr)
-        raise SystemExit(2) from None
-    DOCUMENT.write_text(text)
+    if not DOCUMENT.is_file():
+        raise InputError(f"'{DOCUMENT}' is not here", "run this in the project's folder")
+    lanes = operators()
+    text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), "operators", operator_page(lanes))
+    text = markers.renew(text, str(DOCUMENT), "savings", page())
+    write_atomically(DOCUMENT, text.encode())
     figures = {"preset": "paper", "lanes": lanes["all"], "lanes_of_the_cell": lanes["cell"]}
-    FIGURES.write_text(json.dumps(figures, indent=1) + "\n")
+    write_atomically(FIGURES, (json.dumps(figures, indent=1) + "\n").encode())
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

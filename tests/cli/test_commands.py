@@ -8,7 +8,6 @@ from importlib.metadata import version
 
 import pytest
 
-from softdepth.cli import app as cli
 from softdepth.cli.info import facts
 from softdepth.golden.data import datasets
 from softdepth.hdl.verilog import to_verilog
@@ -55,7 +54,11 @@ def test_export_does_not_depend_on_the_output(softdepth, tmp_path):
 
 @pytest.mark.parametrize(
     ("target", "problem"),
-    [("no/folder/core.v", "does not exist"), (".", "is a folder"), ("file/core.v", "does not exist")],
+    [
+        ("no/folder/core.v", "does not exist"),
+        (".", "is a folder"),
+        ("file/core.v", "part of the path is a file"),
+    ],
 )
 def test_export_where_nothing_can_be_written(softdepth, tmp_path, target, problem):
     (tmp_path / "file").write_text("mine")
@@ -159,5 +162,5 @@ def test_ctrl_c_is_no_error(softdepth, monkeypatch):
 
     monkeypatch.setattr(Config, "preset", interrupt)
     outcome = softdepth("info")
-    assert outcome.code == cli.EXIT_INTERRUPTED
+    assert outcome.code == 130
     assert outcome.err == ""

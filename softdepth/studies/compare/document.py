@@ -7,8 +7,9 @@ import sys
 from itertools import groupby
 from pathlib import Path
 
+from softdepth.ending import ended
 from softdepth.spec.config import OPERATORS, Config
-from softdepth.spec.errors import InputError, SoftdepthError
+from softdepth.spec.errors import InputError
 from softdepth.studies import markers
 from softdepth.studies.compare import tables
 from softdepth.studies.compare.comparison import LAST, Comparison
@@ -167,7 +168,4 @@ def _scores(found: Comparison) -> list[str]:
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1]), Path.cwd())
-    except SoftdepthError as problem:
-        sys.exit(f"error: {problem}")
+    sys.exit(ended(lambda: main(Path(sys.argv[1]), Path.cwd())))

@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 
@@ -104,7 +105,10 @@ def _computed(cells: list[Cell], jobs: int) -> Iterable[tuple[Cell, Found]]:
     if jobs <= 1:
         yield from ((cell, _compute(cell)) for cell in cells)
         return
-    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
+    context = multiprocessing.get_context("spawn")
+    # Ctrl-C reaches every process of a terminal; this one ends the others.
+    ignore = (signal.SIGINT, signal.SIG_IGN)
+    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=signal.signal, initargs=ignore)
     try:
         futures = {pool.submit(_compute, cell): cell for cell in cells}
         for future in as_completed(futures):

@@ -11,7 +11,8 @@ import platformdirs
 import pooch
 import skimage.data
 
-from softdepth.golden.data.images import StereoPair, read_image, read_raw
+from softdepth.golden.data.decode import read_raster
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import SCENES, generate
 from softdepth.golden.data.truth import View, from_disparity, warp
 from softdepth.spec.errors import InputError
@@ -150,7 +151,7 @@ def _fetch(scene: str, file: str) -> np.ndarray:
     remedy = f"put Middlebury's own {scene} there" if folder else "delete it: it is downloaded again"
     problem = f"'{path}' does not hold the pixels of Middlebury's {scene}/{file}"
     try:
-        pixels = read_image(path)[0] if file.startswith("im") else read_raw(path)
+        pixels = np.ascontiguousarray(read_raster(path).values)
     except InputError as error:
         raise InputError(problem, remedy) from error
     if pixel_sum(pixels) != _MIDDLEBURY[scene].pixels[file]:

@@ -1,185 +1,171 @@
-"""Reading rectified stereo pairs from image files."""
+"""Reading rectified stereo pairs from image files: `read_pair`, `read_joined`, `read_image`."""
 
-import struct
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Literal, NamedTuple
 
-import cv2
 import numpy as np
 
+from softdepth.golden.data.decode import Raster, read_raster
+from softdepth.golden.data.inputs import is_standard_input, size_text
+from softdepth.golden.data.pair import MAX_BITS, StereoPair, require_same_size, rescale, triple
 from softdepth.spec.errors import InputError
 
-if TYPE_CHECKING:
-    from softdepth.golden.data.truth import Truth
+Joined = Literal["side-by-side", "top-bottom"]
+"""How two views lie in one file: left and right halves, or upper (left view) and lower."""
 
-MAX_SIDE = 8192
-"""The longest side of an image, in pixels: the largest frame that a core can be built for."""
+_DEPTHS = (8, 10, 12, 14, 16)
+"""Bits that a 16-bit file may really hold, as cameras have them."""
 
-FORMATS = "PNG, PPM, PGM, JPEG or TIFF"
-
-_PNG_START = b"\x89PNG\r\n\x1a\n"
-_PNG_END = b"IEND\xaeB`\x82"
+_LEAST_RANGE = 1 / 4
+"""A pair that uses less of its range than this is worth a word."""
 
 
-@dataclass(frozen=True, eq=False)
-class StereoPair:
-    """A rectified stereo pair, and what is known about it.
+class ImageFile(NamedTuple):
+    """An image as `read_image` gives it.
 
-    Parameters
-    ----------
-    left, right : uint8 RGB, H x W x 3, of one size.
-    name : what reports call the pair.
-    truth : the ground truth of the reference view, if known.
-    notes : what was changed on the way in, one sentence each, worth showing to a user.
+    Members
+    -------
+    pixels : H x W for gray, H x W x 3 for RGB; uint8 up to 8 bits, uint16 beyond.
+    notes : what was changed on the way in, one sentence each.
+    bits : bits a channel: white is ``2**bits - 1``.
+    """
+
+    pixels: np.ndarray
+    notes: tuple[str, ...]
+    bits: int
+
+
+def read_pair(
+    left: str | Path, right: str | Path, name: str | None = None, *, bits: int | None = None
+) -> StereoPair:
+    """Read two image files as a pair called `name` (default: the left file's stem), at one scale.
+
+    Depth: what the file states (8-bit files, PGM and PPM by their largest value, TIFF by its tags).
+    16-bit files state nothing; both are read with the 8, 10, 12, 14 or 16 bits into which the values of
+    both fit, and a note says so. `bits` decides instead. Where the two files' depths differ, both get the
+    larger. A gray file beside one of colours becomes RGB.
 
     Raises
     ------
-    InputError : an array that is not uint8 H x W x 3, or two of different size.
+    InputError : a file that cannot be read, values beyond `bits`, or two images of different size.
     """
-
-    left: np.ndarray
-    right: np.ndarray
-    name: str
-    truth: "Truth | None" = None
-    notes: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        for side, image in (("left", self.left), ("right", self.right)):
-            if image.dtype != np.uint8 or image.ndim != 3 or image.shape[2] != 3:
-                raise InputError(
-                    f"the {side} image is {image.dtype} of shape {image.shape}",
-                    "give 8-bit RGB, height x width x 3",
-                )
-        _same_size(self.left, self.right, "the left image", "the right image")
-
-    @property
-    def height(self) -> int:
-        """Rows."""
-        return self.left.shape[0]
-
-    @property
-    def width(self) -> int:
-        """Columns."""
-        return self.left.shape[1]
+    if is_standard_input(left) and is_standard_input(right):
+        raise InputError(
+            "both images are to come from standard input", "give one of them as a file, or --side-by-side"
+        )
+    rasters = [read_raster(left), read_raster(right)]
+    require_same_size(rasters[0].values, rasters[1].values, f"'{left}'", f"'{right}'")
+    return _pair(rasters, name or _stem(left), bits)
 
 
-def read_pair(left: str | Path, right: str | Path, name: str | None = None) -> StereoPair:
-    """Read two image files as a pair called `name` (default: the left file's stem).
+def read_joined(
+    path: str | Path, joined: Joined, name: str | None = None, *, bits: int | None = None
+) -> StereoPair:
+    """Read a pair that lies in one file, as `read_pair` reads two.
 
     Raises
     ------
-    InputError : a file that `read_image` refuses, or two images of different size.
+    InputError : a file that cannot be read or cut in half, or values beyond `bits`.
     """
-    left_image, left_notes = read_image(left)
-    right_image, right_notes = read_image(right)
-    _same_size(left_image, right_image, f"'{left}'", f"'{right}'")
-    notes = (*left_notes, *right_notes)
-    if np.array_equal(left_image, right_image):
-        notes += ("left and right are the same picture: every disparity is 0",)
-    return StereoPair(left_image, right_image, name or Path(left).stem, notes=notes)
+    raster = read_raster(path)
+    axis = 1 if joined == "side-by-side" else 0
+    if raster.values.shape[axis] % 2:
+        what = "columns" if axis else "rows"
+        raise InputError(
+            f"'{path}' is {size_text(raster.values)}: {raster.values.shape[axis]} {what} do not halve",
+            "give both views at one size, without anything between them",
+        )
+    halves = np.split(raster.values, 2, axis=axis)
+    first, second = (replace(raster, values=half) for half in halves)
+    return _pair([first, replace(second, notes=())], name or _stem(path), bits)
 
 
-def read_image(path: str | Path) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Read an image file as uint8 RGB, H x W x 3, with a note for each conversion.
+def read_image(path: str | Path, *, bits: int | None = None) -> ImageFile:
+    """Read one image file, its depth found as `read_pair` finds it.
 
-    Gray values go to all three channels, 16-bit values ``v`` become ``round(v / 257)``, and an alpha
-    channel is dropped. An orientation tag is ignored: turning one view would undo the rectification.
+    An alpha channel is dropped, CMYK becomes RGB, and of several pages the first is used, with a note for
+    each. An orientation tag is ignored: turning one view would undo the rectification.
 
     Raises
     ------
     InputError : a file that is missing, a folder, cut short, no image, too large, or not of integers.
     """
-    name = Path(path).name
-    image = read_raw(path)
-    notes: list[str] = []
-    if image.dtype == np.uint16:
-        image = np.rint(image / 257).astype(np.uint8)
-        notes.append(f"{name} has 16 bits a channel: its values are scaled to 8 bits")
-    if image.dtype != np.uint8:
-        raise InputError(f"'{path}' holds {image.dtype} values", "convert it to 8 or 16 bits a channel")
-    if image.shape[2] == 4:
-        image = image[:, :, :3]
-        notes.append(f"{name} has an alpha channel: it is dropped")
-    if image.shape[2] == 1:
-        image = np.repeat(image, 3, axis=2)
-        notes.append(f"{name} is gray: its values are used for all three channels")
-    return np.ascontiguousarray(image), tuple(notes)
+    images, notes, found = _bring_in([read_raster(path)], bits)
+    return ImageFile(images[0], notes, found)
 
 
-def read_raw(path: str | Path) -> np.ndarray:
-    """Decode an image file without conversion: H x W x C, C = 1 (gray), 3 (RGB) or 4 (RGBA).
-
-    Raises
-    ------
-    InputError : a file that is missing, a folder, cut short, no image, or too large.
-    """
-    data = read_bytes(path)
-    if data.startswith(_PNG_START):
-        if _PNG_END not in data:
-            raise InputError(f"'{path}' is cut short", "copy or download it again")
-        _check_size(*struct.unpack(">II", data[16:24]), path)
-    unreadable = InputError(f"'{path}' cannot be decoded", f"give an undamaged {FORMATS} image")
-    try:
-        # From memory, because `cv2.imread` fills up some cut files in silence; `imdecode` refuses them.
-        with _quiet():
-            image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error as error:
-        raise unreadable from error
-    if image is None:
-        raise unreadable
-    _check_size(image.shape[1], image.shape[0], path)
-    if image.ndim == 2:
-        return image[:, :, np.newaxis]
-    return image[:, :, [2, 1, 0, 3][: image.shape[2]]]
-
-
-def read_bytes(path: str | Path) -> bytes:
-    """The contents of a file; raises `InputError` where there are none."""
-    path = Path(path)
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError as error:
-        raise InputError(f"'{path}' does not exist", "check the path") from error
-    except IsADirectoryError as error:
-        raise InputError(f"'{path}' is a folder", "name a file in it") from error
-    except OSError as error:
-        raise InputError(
-            f"'{path}' cannot be read: {error.strerror}", "check the path and its rights"
-        ) from error
-    if not data:
-        raise InputError(f"'{path}' is empty", "copy or download it again")
-    return data
-
-
-def size_text(array: np.ndarray) -> str:
-    """``width x height`` of an image, as users write it: ``450x375``."""
-    return f"{array.shape[1]}x{array.shape[0]}"
-
-
-def _same_size(left: np.ndarray, right: np.ndarray, left_name: str, right_name: str) -> None:
-    if left.shape[:2] != right.shape[:2]:
-        raise InputError(
-            f"{left_name} is {size_text(left)}, but {right_name} is {size_text(right)}",
-            "give two rectified images of one size",
+def _pair(rasters: Sequence[Raster], name: str, bits: int | None) -> StereoPair:
+    (left, right), notes, found = _bring_in(rasters, bits)
+    if left.ndim != right.ndim:
+        which = rasters[0 if left.ndim == 2 else 1].name
+        notes += (f"{which} is gray: its values are used for all three channels",)
+        left, right = (triple(image) if image.ndim == 2 else image for image in (left, right))
+    low, high = (int(extreme) for extreme in (min(left.min(), right.min()), max(left.max(), right.max())))
+    white = 2**found - 1
+    if high - low < _LEAST_RANGE * white:
+        notes += (
+            f"the pair uses the values {low} to {high} of 0 to {white}, less than a quarter of the range:"
+            f" say --bits N where the files hold fewer bits than {found}",
         )
+    if np.array_equal(left, right):
+        notes += ("left and right are the same picture: every disparity is 0",)
+    return StereoPair(left, right, name, notes=notes, bits=found)
 
 
-def _check_size(width: int, height: int, path: str | Path) -> None:
-    if max(width, height) > MAX_SIDE:
-        raise InputError(f"'{path}' is {width}x{height}", f"scale it to at most {MAX_SIDE} pixels a side")
+def _bring_in(rasters: Sequence[Raster], bits: int | None) -> tuple[list[np.ndarray], tuple[str, ...], int]:
+    """Images of one depth, the notes about what was changed, and that depth in bits."""
+    notes: list[str] = []
+    plain: list[Raster] = []
+    for raster in rasters:
+        if raster.values.dtype not in (np.uint8, np.uint16):
+            raise InputError(
+                f"'{raster.path}' holds {raster.values.dtype} values", "convert it to 8 or 16 bits a channel"
+            )
+        notes += raster.notes
+        if raster.values.shape[2] == 4:
+            notes.append(f"{raster.name} has an alpha channel: it is dropped")
+        plain.append(replace(raster, values=raster.values[:, :, : min(raster.values.shape[2], 3)]))
+    whites, found = _whites(plain, bits, notes)
+    images = []
+    for raster, white in zip(plain, whites, strict=True):
+        if white != 2**found - 1:
+            notes.append(f"{raster.name} has values 0 to {white}: they are scaled to {found} bits")
+        values = rescale(raster.values, white, found)
+        images.append(np.ascontiguousarray(values[:, :, 0] if values.shape[2] == 1 else values))
+    return images, tuple(dict.fromkeys(notes)), found
 
 
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Keep OpenCV's own log lines off the terminal: the one-line error says it all."""
-    # OpenCV 5 moved these two functions; 4 has them at the top level.
-    log = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging
-    level = log.getLogLevel()  # pyright: ignore[reportAttributeAccessIssue]
-    log.setLogLevel(0)  # pyright: ignore[reportAttributeAccessIssue]
-    try:
-        yield
-    finally:
-        log.setLogLevel(level)  # pyright: ignore[reportAttributeAccessIssue]
+def _whites(rasters: Sequence[Raster], bits: int | None, notes: list[str]) -> tuple[list[int], int]:
+    """The value of white in each file, and the bits that all of them get."""
+    largest = [int(raster.values.max(initial=0)) for raster in rasters]
+    if bits is not None:
+        if not 1 <= bits <= MAX_BITS:
+            raise InputError(f"--bits {bits} is no depth", f"use 1 to {MAX_BITS}")
+        for raster, value in zip(rasters, largest, strict=True):
+            if value >= 2**bits:
+                raise InputError(
+                    f"'{raster.path}' holds {value}, more than --bits {bits} allows",
+                    f"use --bits {value.bit_length()} or more",
+                )
+        return [2**bits - 1] * len(rasters), max(8, bits)
+    silent = [raster.white is None for raster in rasters]
+    fits = 0
+    if any(silent):
+        value = max(value for value, unknown in zip(largest, silent, strict=True) if unknown)
+        fits = next(depth for depth in _DEPTHS if value < 2**depth)
+        if fits < MAX_BITS:
+            names = " and ".join(
+                dict.fromkeys(r.name for r, unknown in zip(rasters, silent, strict=True) if unknown)
+            )
+            notes.append(
+                f"{names}: 16 bits a channel, but no value above {value}, so read as {fits} bits;"
+                " --bits N decides otherwise"
+            )
+    whites = [2**fits - 1 if raster.white is None else raster.white for raster in rasters]
+    return whites, max(8, *(white.bit_length() for white in whites))
+
+
+def _stem(path: str | Path) -> str:
+    return "stdin" if is_standard_input(path) else Path(path).stem

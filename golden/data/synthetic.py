@@ -5,7 +5,8 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
-from softdepth.golden.data.images import MAX_SIDE, StereoPair
+from softdepth.golden.data.decode import MAX_SIDE
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.truth import GRAY_PER_PIXEL, Truth, View
 from softdepth.spec.errors import InputError
 

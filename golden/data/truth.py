@@ -1,27 +1,31 @@
 """Ground truth: reading it, and finding which of its pixels the other view sees too."""
 
-import re
-from dataclasses import dataclass
+import io
+import warnings
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from softdepth.golden.data.images import read_bytes, read_raw, size_text
+from softdepth.golden.data import pfm
+from softdepth.golden.data.decode import Raster, decode
+from softdepth.golden.data.inputs import read_bytes, size_text
 from softdepth.spec.errors import InputError
 
-Kind = Literal["auto", "pfm", "gray8", "kitti16"]
+Kind = Literal["auto", "pfm", "npy", "float", "gray8", "kitti16"]
 View = Literal["left", "right"]
 Evidence = Literal["none", "cross-check", "warp", "scene"]
 
 GRAY_PER_PIXEL = 4
 """Gray levels per pixel of disparity in the paper's maps, and in Middlebury's quarter-size truth."""
 
-_SCALES: dict[str, float] = {"pfm": 1, "gray8": GRAY_PER_PIXEL, "kitti16": 256}
+_SCALES: dict[str, float] = {"pfm": 1, "npy": 1, "float": 1, "gray8": GRAY_PER_PIXEL, "kitti16": 256}
+_ZERO_IS_UNKNOWN = ("gray8", "kitti16")
+_NPY_START = b"\x93NUMPY"
 _TOLERANCE = 1.0
-_PFM_HEADER = re.compile(
-    rb"P(?P<channels>[fF])\s+(?P<columns>[1-9]\d{0,5})\s+(?P<rows>[1-9]\d{0,5})\s+(?P<order>-)?[\d.eE+-]+\s"
-)
+# A share of zeros worth a word; disparities in pixels that are too small, and that no narrow image forbids.
+_MANY, _LEAST, _POSSIBLE = 0.01, 1e-6, 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,12 +41,14 @@ class Truth:
     nonoccluded : bool H x W, the pixels of known disparity that both views see, or None.
     evidence : what `nonoccluded` rests on: both views' truths (``cross-check``), this view's alone
         (``warp``), or the construction of a synthetic scene (``scene``).
+    notes : what a user should know about how the file was read, one sentence each.
     """
 
     disparity: np.ndarray
     gray: np.ndarray
     nonoccluded: np.ndarray | None = None
     evidence: Evidence = "none"
+    notes: tuple[str, ...] = ()
 
     @property
     def known(self) -> np.ndarray:
@@ -57,31 +63,30 @@ def read_truth(
     scale: float | None = None,
     shape: tuple[int, int] | None = None,
     view: View = "left",
+    candidates: int | None = None,
 ) -> Truth:
     """Read the ground truth of `view`; its occluded pixels are found by `visible`.
 
     Parameters
     ----------
-    kind : the coding. ``pfm``: floats, where infinite, NaN and values <= 0 are unknown. ``gray8``:
-        8-bit gray, 0 unknown. ``kitti16``: 16-bit gray, 0 unknown. ``auto`` tells them by content.
-    scale : file units per pixel of disparity; by default 1, 4 (Middlebury at quarter size) and 256.
+    kind : the coding. Floats, of which all finite ones are disparities, 0 and negative ones too: ``pfm``,
+        ``npy`` (NumPy's, whole numbers as well) and ``float`` (TIFF). Gray, where 0 is unknown: ``gray8``
+        of 8 and ``kitti16`` of 16 bits. ``auto`` tells them by content.
+    scale : file units per pixel of disparity; by default 1 for floats, 4 (Middlebury at quarter size)
+        and 256.
     shape : the images' height and width, if it must fit them.
+    candidates : how many disparities will be scored with it. With them, a gray file whose levels are too
+        small for the default scale is an error that asks for `scale`.
 
     Raises
     ------
-    InputError : a file that cannot be read or is not of that kind, one with no known pixel, or a
-        size other than `shape`.
+    InputError : a file that cannot be read or is not of that kind, one with no known pixel, a
+        size other than `shape`, or levels that fit no scene at this scale.
     """
-    data = read_bytes(path)
-    is_pfm = data[:2] in (b"Pf", b"PF")
-    values = _read_pfm(data, path) if is_pfm else _one_channel(read_raw(path), path)
-    found = "pfm" if is_pfm else {"uint8": "gray8", "uint16": "kitti16"}.get(str(values.dtype))
-    if found is None:
-        raise InputError(f"'{path}' holds {values.dtype} values", "give a PFM, or 8-bit or 16-bit gray")
+    values, found, notes = _read_values(path)
     if kind not in ("auto", found):
         raise InputError(f"truth '{path}' is {found}, not {kind}", f"use kind '{found}' or 'auto'")
-    scale = _SCALES[found] if scale is None else scale
-    if not (np.isfinite(scale) and scale > 0):
+    if scale is not None and not (np.isfinite(scale) and scale > 0):
         raise InputError(
             f"truth scale {scale} is not a positive number", "give file units per pixel, such as 4"
         )
@@ -90,12 +95,83 @@ def read_truth(
             f"truth '{path}' is {size_text(values)}, but the images are {shape[1]}x{shape[0]}",
             "give the ground truth of these images, at their size",
         )
-    known = np.isfinite(values) & (values > 0)
+    known = np.isfinite(values) & ((values > 0) | (found not in _ZERO_IS_UNKNOWN))
     if not known.any():
         raise InputError(f"truth '{path}' holds no known disparity", "check that it is a disparity map")
-    disparity = np.where(known, values / scale, np.nan).astype(np.float32)
+    if scale is None and found in _ZERO_IS_UNKNOWN and candidates is not None:
+        _ask_for_scale(values[known], found, path, candidates)
+    with np.errstate(all="ignore"):
+        disparity = np.where(known, values / (_SCALES[found] if scale is None else scale), np.nan)
+    _require_sense(disparity, path)
+    zeros = np.mean(disparity == 0)
+    if zeros > _MANY:
+        share = f"{100 * zeros:.1f} % of the truth"
+        notes += (f"{share} is 0, which is a disparity in floats; unknown is inf or NaN there",)
     gray = values if found == "gray8" else None
-    return from_disparity(disparity, gray=gray, view=view)
+    return replace(from_disparity(disparity.astype(np.float32), gray=gray, view=view), notes=notes)
+
+
+def _read_values(path: str | Path) -> tuple[np.ndarray, str, tuple[str, ...]]:
+    """A truth file's values as they are, H x W, what they are coded in, and notes."""
+    data = read_bytes(path)
+    if data[:2] in pfm.START:
+        return pfm.read_pfm(data, path), "pfm", ()
+    if data.startswith(_NPY_START):
+        return _read_npy(data, path), "npy", ()
+    raster = decode(data, path)
+    values = _one_channel(raster, path)
+    kinds = {"uint8": "gray8", "uint16": "kitti16", "float32": "float", "float64": "float"}
+    found = kinds.get(str(values.dtype))
+    if found is None:
+        raise InputError(
+            f"'{path}' holds {values.dtype} values", "give PFM, NPY, TIFF of floats, or 8-bit or 16-bit gray"
+        )
+    return values, found, raster.notes
+
+
+def _read_npy(data: bytes, path: str | Path) -> np.ndarray:
+    """An array of NumPy's own file format, which may hold no objects: those are programs."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            values = np.load(io.BytesIO(data), allow_pickle=False)
+    except Exception as error:  # NumPy raises what its header's parser raises
+        raise InputError(
+            f"'{path}' is no readable NPY file", "save it again, as an array of floats"
+        ) from error
+    if values.dtype.kind not in "fiu":
+        raise InputError(f"'{path}' holds {values.dtype} values", "save disparities as an array of floats")
+    squeezed = values.squeeze() if values.ndim > 2 else values
+    if squeezed.ndim != 2 or not squeezed.size:
+        raise InputError(f"'{path}' has the shape {values.shape}", "give height x width disparities")
+    return squeezed.astype(np.float64)
+
+
+def _ask_for_scale(levels: np.ndarray, found: str, path: str | Path, candidates: int) -> None:
+    """Raise `InputError` where gray levels are so small that the default scale is hardly theirs."""
+    scale, largest = int(_SCALES[found]), int(levels.max())
+    whole = not (levels % scale).any()
+    if whole or largest >= max(candidates, scale):
+        return
+    raise InputError(
+        f"truth '{path}' has levels up to {largest}, fewer than the {max(candidates, scale)} it could have:"
+        f" {scale} a pixel would make {largest / scale:.2g} px the largest disparity",
+        f"say --gt-scale 1 if a level is a pixel, or --gt-scale {scale} if that is right",
+    )
+
+
+def _require_sense(disparity: np.ndarray, path: str | Path) -> None:
+    """Raise `InputError` where the disparities are of no size that a pair could have."""
+    known = np.abs(disparity[np.isfinite(disparity)])
+    nonzero = known[known > 0]
+    width = disparity.shape[1]
+    largest = max(width, _POSSIBLE)
+    if not known.size or np.median(known) > largest or (nonzero.size and nonzero.max() < _LEAST):
+        size = float(np.median(nonzero)) if nonzero.size else 0
+        raise InputError(
+            f"truth '{path}' holds disparities like {size:.2g} px in an image {width} wide",
+            "say --gt-scale N, and check the file's byte order",
+        )
 
 
 def from_disparity(
@@ -168,27 +244,8 @@ def _partner(disparity: np.ndarray, view: View) -> tuple[np.ndarray, np.ndarray]
     return np.where(inside, target, 0).astype(np.intp), inside
 
 
-def _one_channel(image: np.ndarray, path: str | Path) -> np.ndarray:
-    colours = image[:, :, :3]
+def _one_channel(raster: Raster, path: str | Path) -> np.ndarray:
+    colours = raster.values[:, :, :3]
     if (colours != colours[:, :, :1]).any():
         raise InputError(f"truth '{path}' is a colour picture", "give disparities as gray levels or PFM")
     return colours[:, :, 0]
-
-
-def _read_pfm(data: bytes, path: str | Path) -> np.ndarray:
-    """Decode a one-channel PFM: rows run from the bottom up.
-
-    The header's scale gives the byte order by its sign. Its size is ignored, as in Middlebury's own
-    reader: their files carry one that is not meant for the disparities, yet OpenCV applies it.
-    """
-    header = _PFM_HEADER.match(data)
-    if header is None:
-        raise InputError(f"'{path}' has a broken PFM header", "write it again, as one-channel PFM")
-    if header["channels"] != b"f":
-        raise InputError(f"'{path}' is a three-channel PFM", "give one channel, disparity in pixels")
-    columns, rows, start = int(header["columns"]), int(header["rows"]), header.end()
-    size = 4 * rows * columns
-    if len(data) - start < size:
-        raise InputError(f"'{path}' is cut short", "copy or download it again")
-    values = np.frombuffer(data, "<f4" if header["order"] else ">f4", rows * columns, start)
-    return values.reshape(rows, columns)[::-1].astype(np.float32)

@@ -15,7 +15,7 @@ KITTI_SCALE = 256
 def write_pfm(path: str | Path, disparity: np.ndarray, valid: np.ndarray | None = None) -> None:
     """Write a map of disparities in pixels as one-channel PFM; no result is infinite, as in Middlebury's.
 
-    A disparity of 0 is kept; note that most readers, `read_truth` among them, take it for unknown.
+    A disparity of 0 is kept, and `read_truth` reads it as one; some other readers take it for unknown.
 
     Raises
     ------

@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from softdepth.golden.data.images import size_text
+from softdepth.golden.data.inputs import size_text
 from softdepth.golden.data.truth import GRAY_PER_PIXEL, Truth
 from softdepth.spec.errors import InputError
 

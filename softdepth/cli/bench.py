@@ -18,7 +18,7 @@ from softdepth.spec.config import PRESETS, Config
 from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
 
 BM_WINDOW = 15
 """Window of OpenCV's block matcher; it needs an odd size of at least 5."""

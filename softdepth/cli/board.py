@@ -20,6 +20,9 @@ def board(
     dataset: pairs.Dataset = None,
     truth: pairs.GroundTruth = None,
     truth_scale: pairs.GroundTruthScale = None,
+    bits: pairs.Bits = None,
+    side_by_side: pairs.SideBySide = False,
+    top_bottom: pairs.TopBottom = False,
     name: Annotated[
         str, typer.Option("--board", metavar="NAME", help=f"One of {', '.join(BOARDS)}: for the baud rate.")
     ] = DEFAULT_BOARD,
@@ -72,7 +75,18 @@ def board(
             device.check(wanted)
         chosen = found.config
         screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
-        pair = pairs.read(left, right, dataset, truth, truth_scale, chosen, built=True)
+        pair = pairs.read(
+            left,
+            right,
+            dataset,
+            truth,
+            truth_scale,
+            chosen,
+            built=True,
+            bits=bits,
+            side_by_side=side_by_side,
+            top_bottom=top_bottom,
+        )
         with results.result_folder(output, stale=report.FILES) as folder:
             measurement = measure.measure(pair, chosen, "board", device)
             summary = report.summarise(pair, chosen, measurement)

@@ -14,6 +14,9 @@ def compare(
     dataset: pairs.Dataset = None,
     truth: pairs.GroundTruth = None,
     truth_scale: pairs.GroundTruthScale = None,
+    bits: pairs.Bits = None,
+    side_by_side: pairs.SideBySide = False,
+    top_bottom: pairs.TopBottom = False,
     preset: options.Preset = None,
     config: options.ConfigFile = None,
     assignments: options.Assignments = None,
@@ -37,7 +40,17 @@ def compare(
     from softdepth.studies.compare import comparison, sweep
 
     sweep.check_sweepable(chosen)
-    pair = pairs.read(left, right, dataset, truth, truth_scale, chosen)
+    pair = pairs.read(
+        left,
+        right,
+        dataset,
+        truth,
+        truth_scale,
+        chosen,
+        bits=bits,
+        side_by_side=side_by_side,
+        top_bottom=top_bottom,
+    )
     with results.result_folder(output, stale=comparison.FILES, last=comparison.LAST) as folder:
         measurement = measure.measure(pair, chosen, engine)
         found = comparison.compare(pair, chosen, measurement)

@@ -12,20 +12,41 @@ from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.images import Joined
+    from softdepth.golden.data.pair import StereoPair
 
-Left = Annotated[Path | None, typer.Argument(metavar="LEFT", help="Left image, rectified.")]
+PIXEL = "rgb8"
+"""The pixels that a core takes."""
+
+Left = Annotated[
+    Path | None,
+    typer.Argument(metavar="LEFT", help="Left image, rectified; '-' is standard input."),
+]
 Right = Annotated[Path | None, typer.Argument(metavar="RIGHT", help="Right image, rectified.")]
 Dataset = Annotated[
     str | None, typer.Option("--dataset", metavar="NAME", help="A known pair; see softdepth datasets.")
 ]
 GroundTruth = Annotated[
     Path | None,
-    typer.Option("--gt", metavar="FILE", help="Known disparity of the reference view: PFM or gray PNG."),
+    typer.Option(
+        "--gt",
+        metavar="FILE",
+        help="Known disparity of the reference view: PFM, NPY, float TIFF or gray PNG.",
+    ),
 ]
 GroundTruthScale = Annotated[
     float | None,
     typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity."),
+]
+Bits = Annotated[
+    int | None,
+    typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
+]
+SideBySide = Annotated[
+    bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
+]
+TopBottom = Annotated[
+    bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
 ]
 
 
@@ -37,9 +58,12 @@ def read(
     scale: float | None,
     config: Config,
     *,
+    bits: int | None = None,
+    side_by_side: bool = False,
+    top_bottom: bool = False,
     built: bool = False,
 ) -> "StereoPair":
-    """The pair that these options choose, checked against the core; its notes go to the screen.
+    """The pair that these options choose, in the core's pixels; its notes go to the screen.
 
     `built` tells that the core is on a board, so that no option changes it any more.
 
@@ -47,35 +71,62 @@ def read(
     """
     if scale is not None and truth is None:
         raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
+    if side_by_side and top_bottom:
+        raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
     if dataset is None:
-        pair = _from_files(left, right, truth, scale, config)
-    elif left or truth:
+        joined = "side-by-side" if side_by_side else "top-bottom" if top_bottom else None
+        pair = _images(left, right, joined, bits)
+        if truth is not None:
+            pair = _with_truth(pair, (left, right), truth, scale, config)
+    elif left or truth or bits is not None or side_by_side or top_bottom:
         raise InputError(
-            f"--dataset {dataset} brings its own images and truth", "leave the files out, or --dataset"
+            f"--dataset {dataset} brings its own images and truth",
+            "leave out the files and what is said about them, or --dataset",
         )
     else:
         from softdepth.golden.data import datasets
 
         pair = datasets.load(dataset, reference=config.reference)
+    pair = pair.as_format(PIXEL)
     measure.check_fits(pair, config, built=built)
     for text in pair.notes:
         screen.note(f"note: {text}")
     return pair
 
 
-def _from_files(
-    left: Path | None, right: Path | None, truth: Path | None, scale: float | None, config: Config
-) -> "StereoPair":
+def _images(left: Path | None, right: Path | None, joined: "Joined | None", bits: int | None) -> "StereoPair":
+    from softdepth.golden.data.images import read_joined, read_pair
+
+    if joined is not None:
+        if left is None or right is not None:
+            count = 2 if right else 0
+            raise InputError(f"--{joined} takes one file with both views, {count} given", "name that file")
+        return read_joined(left, joined, bits=bits)
     if left is None or right is None:
         raise InputError(
             f"a pair is two images, {1 if left else 0} given",
-            "give LEFT and RIGHT, or --dataset NAME",
+            "give LEFT and RIGHT, one file with --side-by-side or --top-bottom, or --dataset NAME",
         )
-    from softdepth.golden.data.images import read_pair
+    return read_pair(left, right, bits=bits)
+
+
+def _with_truth(
+    pair: "StereoPair",
+    images: tuple[Path | None, Path | None],
+    path: Path,
+    scale: float | None,
+    config: Config,
+) -> "StereoPair":
+    from softdepth.golden.data.inputs import is_standard_input
     from softdepth.golden.data.truth import read_truth
 
-    pair = read_pair(left, right)
-    if truth is None:
-        return pair
-    shape = (pair.height, pair.width)
-    return replace(pair, truth=read_truth(truth, scale=scale, shape=shape, view=config.reference))
+    if is_standard_input(path) and any(is_standard_input(image) for image in images):
+        raise InputError("an image and --gt are both to come from standard input", "give one as a file")
+    truth = read_truth(
+        path,
+        scale=scale,
+        shape=(pair.height, pair.width),
+        view=config.reference,
+        candidates=config.disparities,
+    )
+    return replace(pair, truth=truth, notes=(*pair.notes, *truth.notes))

@@ -10,7 +10,7 @@ from softdepth.cli import options, pairs
 from softdepth.spec.config import Config
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
     from softdepth.run.measure import Measurement
 
 
@@ -20,6 +20,9 @@ def run(
     dataset: pairs.Dataset = None,
     truth: pairs.GroundTruth = None,
     truth_scale: pairs.GroundTruthScale = None,
+    bits: pairs.Bits = None,
+    side_by_side: pairs.SideBySide = False,
+    top_bottom: pairs.TopBottom = False,
     preset: options.Preset = None,
     config: options.ConfigFile = None,
     assignments: options.Assignments = None,
@@ -41,7 +44,17 @@ def run(
     from softdepth import files as results
     from softdepth.run import measure, report
 
-    pair = pairs.read(left, right, dataset, truth, truth_scale, chosen)
+    pair = pairs.read(
+        left,
+        right,
+        dataset,
+        truth,
+        truth_scale,
+        chosen,
+        bits=bits,
+        side_by_side=side_by_side,
+        top_bottom=top_bottom,
+    )
     with results.result_folder(output, stale=report.FILES) as folder:
         measurement = measure.measure(pair, chosen, engine)
         summary = report.summarise(pair, chosen, measurement)

@@ -10,7 +10,7 @@ from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
     from softdepth.board.device import Device
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
     from softdepth.golden.maps import DisparityMap
     from softdepth.sim.compare import Mismatch
 

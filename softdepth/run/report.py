@@ -18,7 +18,7 @@ from softdepth.run.measure import Engine, Measurement
 from softdepth.spec.config import Config
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
     from softdepth.golden.data.truth import Truth
     from softdepth.golden.maps import DisparityMap
 
@@ -112,7 +112,8 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     writers.write_disparity_png(folder / "disparity.png", disparity, valid)
     writers.write_pfm(folder / "disparity.pfm", disparity, valid)
     writers.write_picture(folder / "colour.png", pictures.colour(disparity, valid, maximum))
-    overview = pictures.triptych(pair.left, pair.right, disparity, valid, maximum)
+    shown = pair.as_format("rgb8")
+    overview = pictures.triptych(shown.left, shown.right, disparity, valid, maximum)
     write_atomically(folder / "overview.png", overview)
     if pair.truth is not None:
         writers.write_picture(folder / "error.png", pictures.error_picture(disparity, pair.truth, valid))

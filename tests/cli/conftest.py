@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from softdepth.cli.app import main
-from softdepth.golden.data.images import StereoPair, read_image
+from softdepth.golden.data.images import read_image
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.writers import write_pfm, write_picture
 
@@ -69,13 +70,13 @@ class Files:
     def gray_right(self) -> Path:
         """The right image without its colour."""
         path = self.folder / "gray.png"
-        cv2.imwrite(str(path), read_image(self.right)[0][:, :, 1])
+        cv2.imwrite(str(path), read_image(self.right).pixels[:, :, 1])
         return path
 
     def cropped(self, path: Path, columns: int) -> Path:
         """A copy of an image with fewer columns."""
         target = self.folder / f"crop{columns}.png"
-        write_picture(target, read_image(path)[0][:, :columns])
+        write_picture(target, read_image(path).pixels[:, :columns])
         return target
 
     def cropped_truth(self, columns: int) -> Path:

@@ -15,7 +15,7 @@ from softdepth.studies.compare.agreement import Agreement, agreement
 from softdepth.studies.compare.sweep import Sweep, sweep
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
 
 LAST = "compare.json"
 FILES = ("compare.md", "differences.png", "sweep.png", "config.toml")

@@ -11,7 +11,7 @@ from softdepth.spec.errors import ConfigError
 from softdepth.studies.compare.agreement import Agreement, agreement
 
 if TYPE_CHECKING:
-    from softdepth.golden.data.images import StereoPair
+    from softdepth.golden.data.pair import StereoPair
     from softdepth.golden.maps import DisparityMap
 
 MEMBERSHIP_BITS = range(4, 13)

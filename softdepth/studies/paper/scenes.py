@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from softdepth.golden.data import datasets
-from softdepth.golden.data.images import StereoPair
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.truth import Truth, View
 
 Size = tuple[int, int]

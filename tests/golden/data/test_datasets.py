@@ -12,7 +12,8 @@ import pytest
 
 from softdepth.golden.data import datasets
 from softdepth.golden.data.datasets import DATA_VARIABLE, load, names, pixel_sum
-from softdepth.golden.data.images import StereoPair
+from softdepth.golden.data.decode import read_raster
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.truth import Truth, View, cross_check
 from softdepth.spec.errors import InputError
 from tests.golden.conftest import save
@@ -191,7 +192,7 @@ def test_folder_in_another_format(folder: Path, monkeypatch: pytest.MonkeyPatch)
     """What counts are the pixels, not the file."""
     scene = folder / "tiny"
     for file, suffix in (("im2.png", ".ppm"), ("disp2.png", ".pgm")):
-        pixels = datasets.read_raw(scene / file)
+        pixels = read_raster(scene / file).values
         save((scene / file).with_suffix(suffix), pixels if suffix == ".ppm" else pixels[:, :, 0])
         (scene / file).unlink()
     monkeypatch.setenv(DATA_VARIABLE, str(folder))
@@ -210,7 +211,7 @@ def test_folder_holds_other_pixels(folder: Path, monkeypatch: pytest.MonkeyPatch
     if change == "cut":
         path.write_bytes(path.read_bytes()[:-20])
     else:
-        pixels = datasets.read_raw(path)[:, :, 0]
+        pixels = read_raster(path).values[:, :, 0]
         pixels[3, 4] += 1
         save(path, pixels)
     monkeypatch.setenv(DATA_VARIABLE, str(folder))
@@ -222,7 +223,7 @@ def test_folder_holds_other_pixels(folder: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_download_fills_the_cache_once(server: type[_Handler], folder: Path) -> None:
     pair = load("middlebury:tiny")
-    np.testing.assert_array_equal(pair.left, datasets.read_raw(folder / "tiny" / "im2.png"))
+    np.testing.assert_array_equal(pair.left, read_raster(folder / "tiny" / "im2.png").values)
     assert server.requests == len(FILES)
     load("middlebury:tiny", "right")
     assert server.requests == len(FILES)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from softdepth.golden.data.images import StereoPair
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import generate
 from softdepth.spec.config import Config
 from softdepth.studies.compare.sweep import Point, Sweep

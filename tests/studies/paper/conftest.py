@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from softdepth.golden.data.images import StereoPair
+from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.truth import Truth, View
 from softdepth.studies.paper import figure4, scenes, speed

@@ -5,7 +5,7 @@ from amaranth.lib import wiring
 from amaranth.lib.cdc import ResetSynchronizer
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.boards.pll import pll
+from softdepth.hdl.boards.plls import pll
 from softdepth.spec.boards import Board
 
 HOLD_CLOCKS = 256

@@ -7,7 +7,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.boards.clocking import Clocking
 from softdepth.hdl.boards.lamps import Lamps
 from softdepth.hdl.boards.link import SerialCore
-from softdepth.hdl.boards.pll import MHZ
+from softdepth.hdl.boards.plls.divisors import MHZ
 from softdepth.hdl.boards.serial.receiver import MIN_DIVISOR
 from softdepth.hdl.boards.wiring import WIRING
 from softdepth.spec.boards import Board

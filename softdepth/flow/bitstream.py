@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from softdepth.files import result_folder
-from softdepth.flow.parts import PACKER, PLACER, Part
+from softdepth.flow.families import FAMILIES, part_of
 from softdepth.flow.route import PLACED, place_and_route
 from softdepth.flow.stages import Stages
 from softdepth.flow.synthesis import synthesise
@@ -69,10 +69,11 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     """
     from softdepth.hdl.boards.top import BoardTop
 
-    part = Part.of(board)
-    tools = {name: find_tool(name) for name in ("yosys", PLACER[part.family], PACKER[part.family])}
+    part = part_of(board)
+    family = FAMILIES[board.family]
+    tools = {name: find_tool(name) for name in ("yosys", family.placer, family.packer)}
     constraints = constraints_file(board)
-    name = f"softdepth-{board.name}{part.suffix}"
+    name = f"softdepth-{board.name}{family.suffix}"
     amaranth = f"amaranth {version('amaranth')}"
     made_with = [amaranth, *map(str, tools.values())]
     facts = [
@@ -94,14 +95,15 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     ):
         work = Path(temporary)
         with stages.stage("synthesis"):
-            synthesise(BoardTop(board, config, described), part.family, work, options=part.synthesis_options)
+            top = BoardTop(board, config, described)
+            synthesise(top, part.family, work, options=family.synthesis_options(part))
         with stages.stage("place and route"):
             mhz = board.core_hz / 1e6
             routed = place_and_route(work, part, mhz=mhz, seed=seed, constraints=constraints)
             routed.check_clock(mhz)
             routed.check_timing()
         with stages.stage("packing"):
-            tools[PACKER[part.family]].run(part.pack(PLACED, name), work)
+            tools[family.packer].run(family.pack(part, PLACED, name), work)
         slowest = routed.clocks[0]
         manifest = Manifest(
             key=key,

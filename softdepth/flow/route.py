@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from softdepth.flow.parts import PLACER, Part
+from softdepth.flow.families import FAMILIES, Part
 from softdepth.flow.tools import ToolRunError, find_tool
 from softdepth.spec.errors import ConfigError, ToolError
 
@@ -137,13 +137,14 @@ def place_and_route(
     if constraints is not None:
         pins = constraints.name
         (folder / pins).write_text(constraints.read_text())
+    family = FAMILIES[part.family]
     arguments = [
-        *part.place("netlist.json", PLACED, pins),
+        *family.place(part, "netlist.json", PLACED, pins),
         *("--freq", f"{mhz:g}", "--seed", str(seed), "--timing-allow-fail"),
         *("--report", "report.json", "--log", "nextpnr.log"),
     ]
     try:
-        log = find_tool(PLACER[part.family]).run(arguments, folder)
+        log = find_tool(family.placer).run(arguments, folder)
     except ToolRunError as failure:
         _check_fits(usage(failure.log), part)
         raise

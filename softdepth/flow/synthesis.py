@@ -3,20 +3,17 @@
 import json
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from amaranth.lib.wiring import Component
 
-from softdepth.flow.fuse import fuse_carries
-from softdepth.flow.multiplier_registers import absorb_multiplier_registers
+from softdepth.flow.families import FAMILIES, NetlistPass
 from softdepth.flow.netlist import Netlist
-from softdepth.flow.ram_registers import absorb_ram_registers
 from softdepth.flow.tools import find_tool
 from softdepth.hdl.text.collisions import waive_collisions
 from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.hdl.text.share import share
-from softdepth.spec.boards import Family
 from softdepth.spec.config import Config
 
 TOP = "top"
@@ -24,30 +21,6 @@ TOP = "top"
 
 SCOPE = "$scopeinfo"
 """A cell that is none: yosys leaves one of the name of each module that it flattened."""
-
-NetlistPass = Callable[[Netlist], int]
-"""Changes a netlist in place and returns how many cells went."""
-
-PASSES: dict[Family, tuple[NetlistPass, ...]] = {
-    "ecp5": (fuse_carries, absorb_ram_registers, absorb_multiplier_registers),
-    "ice40": (),
-    "gowin": (),
-}
-"""What is done to each netlist between yosys and nextpnr, in this order."""
-
-COMMANDS: dict[Family, str] = {
-    "ecp5": f"synth_ecp5 -top {TOP}",
-    "ice40": f"synth_ice40 -top {TOP}",
-    "gowin": f"synth_gowin -top {TOP} -family gw2a -noiopads",
-}
-
-# yosys would give pads to every module that is mapped by itself: the top alone gets them, at the end.
-_PADS: dict[Family, str] = {
-    "ecp5": "",
-    "ice40": "",
-    "gowin": "iopadmap -bits -inpad IBUF O:I -outpad OBUF I:O -toutpad TBUF ~OEN:I:O"
-    " -tinoutpad IOBUF ~OEN:O:I:IO;",
-}
 
 # Lanes were kept apart so that each was mapped once; from here on the design is one module.
 _JOIN = "setattr -mod -unset keep_hierarchy; flatten; opt_merge; opt_clean"
@@ -60,7 +33,7 @@ def to_shared_rtlil(design: Component) -> str:
 
 def synthesise(
     design: Component | str,
-    family: Family,
+    family: str,
     folder: Path,
     *,
     options: Sequence[str] = (),
@@ -73,18 +46,19 @@ def synthesise(
     design : a component, or RTLIL with a top module called `TOP`.
     folder : gets the files of the run.
     options : for yosys' synthesis command, e.g. ``-nobram``.
-    passes : done to the netlist; by default those that `PASSES` lists for the family.
+    passes : done to the netlist; by default those of the family.
 
     Raises `ToolError` where yosys is missing or fails.
     """
     text = design if isinstance(design, str) else to_shared_rtlil(design)
     (folder / "design.il").write_text(text)
-    command = " ".join((COMMANDS[family], *options))
-    script = f"read_rtlil design.il; {command}; {_JOIN}; {_PADS[family]} write_json mapped.json"
+    target = FAMILIES[family]
+    command = " ".join((target.synthesis(TOP), *options))
+    script = f"read_rtlil design.il; {command}; {_JOIN}; {target.pads} write_json mapped.json"
     # The packaged yosys may lose what it prints, but not what it logs.
     find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
     netlist = json.loads((folder / "mapped.json").read_text())
-    for each in PASSES[family] if passes is None else passes:
+    for each in target.passes if passes is None else passes:
         each(netlist)
     (folder / "netlist.json").write_text(json.dumps(netlist))
     return netlist

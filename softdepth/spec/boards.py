@@ -12,6 +12,9 @@ from softdepth.spec.errors import ConfigError
 
 Family = Literal["ecp5", "ice40", "gowin"]
 
+GOWIN_DIES = {"GW2AR-LV18": "GW2A-18C"}
+"""The die of each Gowin part, by how the part's name starts: another part is a line."""
+
 
 @dataclass(frozen=True)
 class Board:
@@ -54,6 +57,14 @@ def find_board(name: str) -> Board:
     if name not in BOARDS:
         raise ConfigError(f"unknown board '{name}'", f"use one of {', '.join(BOARDS)}")
     return BOARDS[name]
+
+
+def gowin_die(device: str) -> str:
+    """What the tools call the die of a Gowin part; raises `ConfigError` for an unknown one."""
+    for start, die in GOWIN_DIES.items():
+        if device.startswith(start):
+            return die
+    raise ConfigError(f"unknown Gowin part '{device}'", f"use one of {', '.join(GOWIN_DIES)}")
 
 
 def _ulx3s(size: int, preset: str, *overrides: str) -> Board:

@@ -16,10 +16,11 @@ from pathlib import Path
 from softdepth import screen
 from softdepth.ending import ended
 from softdepth.files import write_atomically
-from softdepth.flow.fuse import fuse_carries
+from softdepth.flow.families import FAMILIES, NetlistPass
+from softdepth.flow.families.ecp5.fuse import fuse_carries
+from softdepth.flow.families.ecp5.ram_registers import absorb_ram_registers
 from softdepth.flow.limits import taken
-from softdepth.flow.ram_registers import absorb_ram_registers
-from softdepth.flow.synthesis import PASSES, NetlistPass, cells, synthesise, to_shared_rtlil
+from softdepth.flow.synthesis import cells, synthesise, to_shared_rtlil
 from softdepth.spec.config import OPERATORS, Config
 from softdepth.spec.errors import InputError
 from softdepth.spec.rules import Firing
@@ -27,7 +28,7 @@ from softdepth.studies import markers
 
 DOCUMENT = Path("docs/area.md")
 FIGURES = DOCUMENT.with_suffix(".json")
-ALL = PASSES["ecp5"]
+ALL = FAMILIES["ecp5"].passes
 MOST_MULTIPLIERS = 9999
 """Only one lane is built, whatever a part could hold of them."""
 LANES = ("paper", "compact", "lite", "sad")

@@ -11,8 +11,8 @@ from pydantic import BaseModel
 
 from softdepth.files import cache_folder, write_atomically
 from softdepth.flow.blocks import Block, blocks
+from softdepth.flow.families import FAMILIES, Part
 from softdepth.flow.measuring_top import MeasuringTop
-from softdepth.flow.parts import PLACER, Part
 from softdepth.flow.route import Routed, place_and_route
 from softdepth.flow.stages import Stages
 from softdepth.flow.synthesis import synthesise
@@ -122,7 +122,8 @@ def measure(
     with tempfile.TemporaryDirectory(prefix="softdepth-") as temporary:
         work = Path(temporary)
         with stages.stage("synthesis"):
-            netlist = synthesise(top, part.family, work, options=part.synthesis_options)
+            options = FAMILIES[part.family].synthesis_options(part)
+            netlist = synthesise(top, part.family, work, options=options)
         key = _key((work / "netlist.json").read_bytes(), preset, part, seed)
         kept = cache_folder() / "flow" / "rows" / f"{key}.json"
         for earlier in known:
@@ -177,6 +178,6 @@ def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
 
 def _key(netlist: bytes, preset: str, part: Part, seed: int) -> str:
     digest = hashlib.sha256(netlist)
-    facts = [preset, str(part), seed, AIM_MHZ, find_tool(PLACER[part.family]).version]
+    facts = [preset, str(part), seed, AIM_MHZ, find_tool(FAMILIES[part.family].placer).version]
     digest.update(json.dumps(facts).encode())
     return digest.hexdigest()[:20]

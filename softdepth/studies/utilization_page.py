@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from softdepth.files import write_atomically
-from softdepth.flow.parts import PACKER, PLACER
+from softdepth.flow.families import FAMILIES
 from softdepth.flow.tools import find_tool
 from softdepth.studies.utilization import AIM_MHZ, PART, Measurement, Row, Selection
 
@@ -54,7 +54,8 @@ def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Mea
 
 def write(folder: Path, measurements: Sequence[Measurement]) -> None:
     """Write both files into `folder`."""
-    tools = {name: find_tool(name).version for name in ("yosys", PLACER[PART.family], PACKER[PART.family])}
+    family = FAMILIES[PART.family]
+    tools = {name: find_tool(name).version for name in ("yosys", family.placer, family.packer)}
     figures = {
         "tools": tools,
         "part": f"{PART.device}-{PART.speed}{PART.package}",

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from softdepth.flow.parts import PLACER, Part
+from softdepth.flow.families import FAMILIES, Part, part_of
 from softdepth.flow.route import TimingError, place_and_route, usage
 from softdepth.flow.tools import ToolRunError
 from softdepth.spec.boards import BOARDS
@@ -57,7 +57,7 @@ def nextpnr(path, tmp_path: Path):
         (tmp_path / "said").write_text(LOG.format(luts=luts))
         (tmp_path / "report").write_text(json.dumps(REPORT))
         path(
-            PLACER[PART.family],
+            FAMILIES[PART.family].placer,
             '[ "$1" = --version ] && echo "(Version nextpnr-0.11)" && exit 0\n'
             f'echo "$@" > arguments\n/bin/cat {tmp_path}/said\n/bin/cp {tmp_path}/report report.json\n'
             f"[ {code} = 0 ] || echo 'ERROR: it went wrong'\nexit {code}",
@@ -117,11 +117,14 @@ def test_nextpnr_is_told_part_clock_seed_and_pins(nextpnr, tmp_path):
 
 
 def test_every_board_has_a_part_that_the_tools_know():
-    told = {name: " ".join(Part.of(board).place("n", "p", "c")) for name, board in BOARDS.items()}
+    told = {
+        name: " ".join(FAMILIES[board.family].place(part_of(board), "n", "p", "c"))
+        for name, board in BOARDS.items()
+    }
     assert "--85k --package CABGA381 --speed 6 --lpf c" in told["ulx3s-85f"]
     assert "--up5k --package sg48 --pcf c" in told["icebreaker"]
     assert "--device GW2AR-LV18QN88C8/I7 --vopt family=GW2A-18C --vopt cst=c" in told["tangnano20k"]
-    assert {name: Part.of(board).suffix for name, board in BOARDS.items()} == {
+    assert {name: FAMILIES[board.family].suffix for name, board in BOARDS.items()} == {
         **{f"ulx3s-{size}f": ".bit" for size in (12, 25, 45, 85)},
         "icebreaker": ".bin",
         "tangnano20k": ".fs",

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from softdepth.flow.multiplier_registers import absorb_multiplier_registers
+from softdepth.flow.families.ecp5.multiplier_registers import absorb_multiplier_registers
 from tests.flow.circuits import Bit, Circuit
 
 WIDTH = 5

@@ -14,7 +14,7 @@ from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 from numpy.typing import NDArray
 
-from softdepth.flow.fuse import fuse_carries
+from softdepth.flow.families.ecp5.fuse import fuse_carries
 from softdepth.flow.synthesis import TOP, Netlist, cells, synthesise
 from softdepth.flow.tools import find_tool, share_folder
 from tests.flow.circuits import ADD, Bit, Circuit, outputs

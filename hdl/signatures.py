@@ -25,7 +25,7 @@ PixelPair = data.StructLayout(
 
 ``left``, ``right`` hold red in the lowest byte, then green, then blue. ``sof`` marks a frame's
 first pixel, ``eol`` a line's last, ``eof`` a frame's last. A source without ``eof`` ties it to 0:
-the core then learns the height from the frame before, and ends the first frame at the next ``sof``.
+a frame then ends at the next ``sof``, until two whole frames in a row have taught the core their height.
 """
 
 

@@ -1,10 +1,12 @@
 """Turns whatever markers arrive into frames that are whole."""
 
-from amaranth.hdl import Module, Mux, Signal, unsigned
+from amaranth.hdl import Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.signatures import COUNTER_BITS, PIXEL_BITS, PixelPair, Status
+from softdepth.hdl.front.fault_counters import FaultCounters
+from softdepth.hdl.front.height_learner import HeightLearner
+from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status
 from softdepth.spec.config import Config
 
 
@@ -15,10 +17,10 @@ def item_layout(config: Config) -> data.StructLayout:
     ``eof`` on its last pixel, or by an ``end`` item without a pixel. ``damaged`` tells that the
     frame was mended, or cut short, up to here.
 
-    What the sequencer wants to know of ``x``: ``first``: it is the line's first pixel. ``completes``: with
-    it, the line's first pixel has all that it sees to its right. ``inner``: with it, a pixel is complete
-    whose support lies inside the image; ``first_inner``: it is the first of these. The last three are
-    never set with ``sof``, and none is with ``end``.
+    The last four are for the sequencer and speak of ``x``. ``first``: it is the line's first column.
+    ``completes``: with it, the line's first pixel has all that it sees to its right. ``inner``: with it, a
+    pixel is complete whose support lies inside the image; ``first_inner``: it is the first of these. The
+    last three are never set with ``sof``, and none is with ``end``.
     """
     return data.StructLayout(
         {
@@ -39,16 +41,20 @@ def item_layout(config: Config) -> data.StructLayout:
 
 
 class FrameGuard(wiring.Component):
-    """Learns width and height from the markers and mends what does not fit.
+    """Turns whatever markers arrive into whole frames; sound frames pass without a cycle lost.
 
-    A frame's first line gives its width. Short lines are padded with their last pixel, long ones
-    are cut, pixels outside any frame are dropped, and a start of frame before the end closes the
-    running frame first; each is counted in ``status`` and marks the frame as damaged. Sound frames
-    pass unchanged, without a cycle lost.
+    A frame's first line gives its width. Short lines are filled up, long ones are cut, pixels outside any
+    frame are dropped, and a start of frame before the end closes the running frame first. Each fault is
+    counted in ``status``, and marks the frame as damaged from there on. The table of faults is in
+    docs/gateware.md; how the end of a frame is known without end marks, in `HeightLearner`.
 
-    A source that never sets ``eof`` is served too: the first frame ends when the second begins, from
-    then on the height is known. It changes when three frames in a row agree on another, so that starts
-    of frame misplaced within one do not change it.
+    States
+    ------
+    OUTSIDE : no frame is open. DROP : the same, and pixels that belong to none have come.
+    BETWEEN : a frame is open, and a line of it is complete. LINE : the line has begun.
+    PAD : a short line is filled with its last pixel.
+    SKIP : the rest of a line that was cut is dropped. SKIP_LAST : the same, of a frame's last line.
+    END : a frame ended in what was cut, and has yet to be ended for the sequencer.
 
     Members
     -------
@@ -71,227 +77,189 @@ class FrameGuard(wiring.Component):
         m = Module()
         config = self._config
         pair, item = self.i.payload, self.o.payload
-        taken = Signal()  # an item leaves
-        m.d.comb += taken.eq(self.o.valid & self.o.ready)
-
-        # Where the next pixel goes.
-        in_frame = Signal()
-        first_line = Signal()
-        x = Signal(range(config.max_width))
-        within_line = Signal()  # x is not 0
-        y = Signal(range(config.max_height))
-        damaged = Signal()
-        padding = Signal()
+        m.submodules.learner = learner = HeightLearner(config)
+        m.submodules.counters = counters = FaultCounters()
+        m.d.comb += self.status.eq(counters.status)
 
         starts = Signal()
+        offers_start, offers_rest = (
+            Signal(),
+            Signal(),
+        )  # a pixel is offered, and it starts a frame, or does not
         eol = Signal()
-        m.d.comb += [starts.eq(pair.sof), eol.eq(pair.eol | pair.eof)]
-
-        # The column at which the line must end, and whether it may end earlier.
-        here = Signal.like(x)
-        begins_line = Signal()  # whatever x says
-        on_first_line = Signal()
         m.d.comb += [
-            begins_line.eq(starts & ~padding),
-            here.eq(Mux(begins_line, 0, x)),
-            on_first_line.eq(starts | first_line),
-        ]
-        # Known a pixel ahead. A line has more than one pixel, so that its first is not its last.
-        at_last = Signal()
-        before_last = Signal.like(x, reset_less=True)  # the column before a line's last possible one
-        wide_enough = Signal()  # the line may end here
-        full = Signal()
-        short = Signal()
-        m.d.comb += [
-            full.eq(at_last & ~starts),
-            short.eq(eol & Mux(on_first_line, begins_line | ~wide_enough, ~full)),
+            starts.eq(pair.sof),
+            offers_start.eq(self.i.valid & starts),
+            offers_rest.eq(self.i.valid & ~starts),
+            eol.eq(pair.eol | pair.eof),
         ]
 
-        # Height, for sources that do not mark the end of a frame.
-        marks_end = Signal()
-        rows = Signal(range(config.max_height + 1))  # lines since the last start, dropped ones too
-        previous_rows = Signal.like(rows)
-        agreed = Signal()  # the two frames before were equally high
-        height = Signal.like(rows)  # 0: not known yet
-        is_known, is_1, less_2 = Signal(), Signal(), Signal.like(rows)  # of the height
-        row = Signal.like(y)
-        m.d.comb += row.eq(Mux(starts, 0, y))
-        # The row is the last possible, or the last of the learnt height: known a row ahead.
-        highest = Signal()
-        height_ends = Signal()
-        ends_here = Signal()
-        too_high = Signal()
+        # What a state decides. At most one of them is set.
+        passes = Signal()  # the pixel that is offered leaves
+        drops = Signal()  # it is dropped
+        fills = Signal()  # the line's last pixel leaves once more
+        ends = Signal()  # a bare end leaves
+        taken = Signal()  # an item leaves
         m.d.comb += [
-            ends_here.eq(
-                pair.eof | (highest & ~on_first_line) | (~marks_end & Mux(on_first_line, is_1, height_ends))
-            ),
-            too_high.eq(marks_end & highest & ~on_first_line & ~pair.eof),
+            self.o.valid.eq(passes | fills | ends),
+            self.i.ready.eq((passes & self.o.ready) | drops),
+            taken.eq(self.o.valid & self.o.ready),
         ]
-        with m.If(self.i.valid & self.i.ready & pair.eof):
-            m.d.sync += marks_end.eq(1)
 
-        padded_left = Signal(PIXEL_BITS, reset_less=True)
-        padded_right = Signal(PIXEL_BITS, reset_less=True)
-        eof_after_padding = Signal(reset_less=True)
-        # The line's last pixel. Pixels that are not taken are kept too, as one of the line follows before any
-        # padding: these registers lie far from the others, so that little may decide.
-        with m.If(self.i.valid & ~padding & ~(starts & in_frame)):
-            m.d.sync += [padded_left.eq(pair.left), padded_right.eq(pair.right)]
-        skipping = Signal()
-        dropping = Signal()
-        pending_end = Signal()  # a line was cut whose tail held the end of the frame
+        # The column of the next pixel. The rest is known a pixel ahead: a line has more than one.
+        x = Signal(range(config.max_width))
+        may_end = Signal()  # the line is wide enough to end there
+        must_end = Signal()  # and cannot be any wider
+        first_line = Signal()  # the frame's first line has begun, and no other
+        last_column = Signal.like(x, init=config.max_width - 1, reset_less=True)  # of the frame's lines
 
-        # Flags of x itself, as `here` comes late.
+        short, cut, line_ends, frame_ends = Signal(), Signal(), Signal(), Signal()
+        end_waits = Signal(reset_less=True)  # the line that is filled bore its frame's end
+        m.d.comb += [
+            short.eq(passes & eol & ~may_end),
+            cut.eq(passes & must_end & ~eol),
+            line_ends.eq(may_end & (fills | must_end | eol)),
+            frame_ends.eq(Mux(fills, end_waits, pair.eof) | learner.is_last),
+        ]
+        with m.If(taken & ~ends):
+            following = x + 1
+            m.d.sync += x.eq(following)
+            with m.If(first_line):
+                m.d.sync += [
+                    last_column.eq(x),
+                    must_end.eq(following == config.max_width - 1),
+                ]
+                with m.If(following == config.min_width - 1):
+                    m.d.sync += may_end.eq(1)
+            with m.Else():
+                is_width = following == last_column
+                m.d.sync += [may_end.eq(is_width), must_end.eq(is_width)]
+            with m.If(passes & starts):
+                m.d.sync += first_line.eq(1)
+            with m.If(line_ends):
+                m.d.sync += [x.eq(0), may_end.eq(0), must_end.eq(0), first_line.eq(0)]
+
+        damaged = Signal()  # this frame, by what came before
+        found = Signal()  # another fault, in this clock
+        closes = Signal()  # the frame ends with what leaves
+        m.d.comb += closes.eq(ends | (line_ends & frame_ends))
+        with m.If(taken):
+            m.d.sync += damaged.eq(item.damaged & ~closes)
+
+        with m.FSM(name="frame") as frame:
+
+            def pass_on() -> None:
+                """The pixel leaves, and the next belongs to the same line or lies behind it."""
+                m.d.comb += passes.eq(1)
+                with m.If(taken):
+                    m.d.comb += [counters.short_lines.eq(short), counters.long_lines.eq(cut)]
+                    with m.If(short):
+                        m.next = "PAD"
+                    with m.Elif(~line_ends):
+                        m.next = "LINE"
+                    with m.Elif(frame_ends):
+                        m.next = "OUTSIDE"
+                        with m.If(cut):
+                            m.next = "SKIP_LAST"
+                    with m.Else():
+                        m.next = "BETWEEN"
+                        with m.If(cut):
+                            m.next = "SKIP"
+
+            with m.State("OUTSIDE"):
+                with m.If(offers_start):
+                    pass_on()
+                with m.If(offers_rest):
+                    m.d.comb += [drops.eq(1), counters.missing_starts.eq(1)]
+                    m.next = "DROP"
+            with m.State("DROP"):
+                with m.If(offers_start):
+                    pass_on()
+                with m.If(offers_rest):
+                    m.d.comb += drops.eq(1)
+            with m.State("SKIP_LAST"):
+                with m.If(offers_start):
+                    pass_on()
+                with m.If(offers_rest):
+                    m.d.comb += drops.eq(1)
+                    with m.If(eol):
+                        m.next = "OUTSIDE"
+            with m.State("BETWEEN"):
+                with m.If(offers_start):
+                    # Without another way to know it, this is how frames end.
+                    m.d.comb += [ends.eq(1), found.eq(learner.knows_end)]
+                with m.If(offers_rest & learner.is_lowest):
+                    m.d.comb += [ends.eq(1), found.eq(1)]
+                with m.If(offers_rest & ~learner.is_lowest):
+                    pass_on()
+                with m.If(ends & taken):
+                    m.d.comb += [
+                        counters.early_starts.eq(starts & learner.knows_end),
+                        learner.whole.eq(starts & ~damaged),
+                    ]
+                    m.next = "OUTSIDE"
+            with m.State("LINE"):
+                with m.If(offers_start):
+                    m.d.comb += [counters.early_starts.eq(1), counters.short_lines.eq(1)]
+                    m.next = "PAD"
+                with m.If(offers_rest):
+                    pass_on()
+            with m.State("PAD"):
+                m.d.comb += [fills.eq(1), found.eq(1)]
+                with m.If(taken & line_ends):
+                    m.next = "BETWEEN"
+                    with m.If(frame_ends):
+                        m.next = "OUTSIDE"
+            with m.State("SKIP"):
+                with m.If(offers_start):
+                    m.d.comb += ends.eq(1)
+                    with m.If(taken):
+                        m.d.comb += counters.early_starts.eq(1)
+                        m.next = "OUTSIDE"
+                with m.If(offers_rest):
+                    m.d.comb += drops.eq(1)
+                    with m.If(eol):
+                        m.next = "BETWEEN"
+                        with m.If(pair.eof):
+                            m.next = "END"
+            with m.State("END"):
+                m.d.comb += [ends.eq(1), found.eq(1)]
+                with m.If(taken):
+                    m.next = "OUTSIDE"
+
+        # A line's last pixel, to fill it with. Whatever is offered is kept, as one of the line follows before
+        # it is filled: these registers lie far from the others, so that little may decide. The source may
+        # offer nothing meanwhile, or what it likes: the item does not show it.
+        own = Signal()
+        m.d.comb += own.eq(frame.ongoing("PAD") | frame.ongoing("END"))
+        kept = {side: Signal(PIXEL_BITS, name=f"kept_{side}", reset_less=True) for side in ("left", "right")}
+        within_line = frame.ongoing("LINE")
+        with m.If(self.i.valid & ~own & ~(within_line & starts)):
+            m.d.sync += [kept[side].eq(pair[side]) for side in kept]
+        with m.If(~frame.ongoing("PAD")):
+            m.d.sync += end_waits.eq(pair.eof | (within_line & starts))
+
+        def reaches(place: int) -> Value:
+            """With this item, the line's first pixel is complete whose support ends at column ``place``."""
+            return (x == place) if place else (x == place) & passes & ~starts
+
         support = config.reach_left + config.reach_right
         m.d.comb += [
-            item.left.eq(pair.left),
-            item.right.eq(pair.right),
-            item.x.eq(here),
-            item.first.eq(begins_line | ~within_line),
-            item.completes.eq(~begins_line & (x == config.reach_right)),
-            item.inner.eq(~begins_line & (x >= support)),
-            item.first_inner.eq(~begins_line & (x == support)),
+            item.left.eq(Mux(own, kept["left"], pair.left)),
+            item.right.eq(Mux(own, kept["right"], pair.right)),
+            item.x.eq(x),
+            item.sof.eq(passes & starts),
+            item.eol.eq(line_ends),
+            item.eof.eq(line_ends & frame_ends),
+            item.end.eq(ends),
+            item.damaged.eq(damaged | found | short | cut),
+            item.first.eq(passes & ~within_line),
+            item.completes.eq(reaches(config.reach_right)),
+            item.first_inner.eq(reaches(support)),
+            item.inner.eq(x >= support if support else passes & ~starts),
+            learner.frame.eq(taken & passes & starts),
+            learner.line.eq(taken & passes & ~within_line),
+            learner.dropped.eq((frame.ongoing("OUTSIDE") | frame.ongoing("DROP")) & offers_rest & eol),
+            learner.mark.eq(self.i.valid & self.i.ready & pair.eof),
         ]
-
-        # Counted a clock later: the counters are not part of the longest path.
-        events = {name: Signal(name=f"counts_{name}") for name in Status.members}
-        for name, event in events.items():
-            counter = self.status[name]
-            m.d.sync += event.eq(0)
-            with m.If(event & (counter != 2**COUNTER_BITS - 1)):
-                m.d.sync += counter.eq(counter + 1)
-
-        def count(name: str) -> None:
-            m.d.sync += events[name].eq(1)
-
-        # A clock later: a line is longer than that.
-        line_left = Signal()
-        left_at = Signal.like(x, reset_less=True)
-        m.d.sync += line_left.eq(0)
-        with m.If(line_left):
-            m.d.sync += before_last.eq(left_at - 1)
-
-        def advance(column: Signal) -> None:
-            """A pixel leaves at a column, and the line goes on unless `finish_line` says otherwise."""
-            m.d.sync += [
-                x.eq(column + 1),
-                within_line.eq(1),
-                at_last.eq(column == before_last),
-                wide_enough.eq(column >= config.min_width - 2),
-                left_at.eq(column),
-            ]
-
-        def finish_line(ends: Signal) -> None:
-            """The pixel that leaves is its line's last."""
-            m.d.sync += [
-                x.eq(0),
-                within_line.eq(0),
-                at_last.eq(0),
-                wide_enough.eq(0),
-                line_left.eq(1),
-                y.eq(row + 1),
-                highest.eq(row == config.max_height - 2),
-                height_ends.eq(row == less_2),
-                first_line.eq(0),
-            ]
-            with m.If(ends):
-                m.d.sync += in_frame.eq(0)
-
-        with m.If(pending_end):
-            # No pixel is offered: what the source shows meanwhile must not shine through.
-            m.d.comb += [self.o.valid.eq(1), item.eq(0), item.end.eq(1), item.damaged.eq(1)]
-            with m.If(taken):
-                m.d.sync += [pending_end.eq(0), in_frame.eq(0)]
-        with m.Elif(padding):
-            at_end = Signal()
-            m.d.comb += [
-                at_end.eq(Mux(first_line, wide_enough, at_last)),
-                self.o.valid.eq(1),
-                item.left.eq(padded_left),
-                item.right.eq(padded_right),
-                item.eol.eq(at_end),
-                item.eof.eq(at_end & eof_after_padding),
-                item.damaged.eq(1),
-                row.eq(y),
-            ]
-            with m.If(taken):
-                advance(x)
-                with m.If(at_end):
-                    m.d.sync += padding.eq(0)
-                    finish_line(eof_after_padding)
-        with m.Elif(skipping & ~(self.i.valid & starts)):
-            m.d.comb += self.i.ready.eq(1)
-            with m.If(self.i.valid & eol):
-                m.d.sync += [skipping.eq(0), pending_end.eq(pair.eof & in_frame)]
-        with m.Elif(self.i.valid & starts & in_frame):
-            m.d.sync += skipping.eq(0)
-            with m.If(within_line):
-                count("early_starts")
-                count("short_lines")
-                m.d.sync += [padding.eq(1), damaged.eq(1), eof_after_padding.eq(1)]
-            with m.Else():
-                early = Signal()
-                m.d.comb += [
-                    early.eq(marks_end | is_known),
-                    self.o.valid.eq(1),
-                    item.end.eq(1),
-                    item.first.eq(0),
-                    item.damaged.eq(damaged | early),
-                ]
-                with m.If(taken):
-                    m.d.sync += in_frame.eq(0)
-                    with m.If(early):
-                        count("early_starts")
-        with m.Elif(self.i.valid & ~starts & ~in_frame):
-            m.d.comb += self.i.ready.eq(1)
-            m.d.sync += [dropping.eq(1), skipping.eq(0)]
-            with m.If(~dropping):
-                count("missing_starts")
-        with m.Elif(self.i.valid):
-            m.d.comb += [
-                self.o.valid.eq(1),
-                self.i.ready.eq(self.o.ready),
-                item.sof.eq(starts),
-                item.eol.eq((eol & ~short) | full),
-                item.eof.eq(item.eol & ends_here),
-                item.damaged.eq((damaged & ~starts) | short | (full & ~eol) | (too_high & item.eol)),
-            ]
-            with m.If(taken):
-                advance(here)
-                m.d.sync += [
-                    in_frame.eq(1),
-                    dropping.eq(0),
-                    skipping.eq(0),
-                    damaged.eq(item.damaged),
-                    eof_after_padding.eq(ends_here),
-                ]
-                with m.If(starts):
-                    m.d.sync += [first_line.eq(1), y.eq(0), at_last.eq(0)]
-                    m.d.sync += before_last.eq(config.max_width - 2)
-                with m.If(item.eol):
-                    finish_line(item.eof)
-                with m.If(short):
-                    count("short_lines")
-                    m.d.sync += padding.eq(1)
-                with m.If(full & ~eol):
-                    count("long_lines")
-                    m.d.sync += skipping.eq(1)
-
-        # A clock later, like the counters: nothing looks at the height so soon.
-        began = Signal()
-        line_ended = Signal()
-        accepted = self.i.valid & self.i.ready
-        m.d.sync += [began.eq(accepted & starts), line_ended.eq(accepted & eol)]
-        counted = Signal.like(rows)
-        m.d.comb += counted.eq(Mux(began, 0, rows))
-        m.d.sync += [
-            rows.eq(counted + (line_ended & (counted != config.max_height))),
-            is_known.eq(height != 0),
-            is_1.eq(height == 1),
-            less_2.eq(height - 2),
-        ]
-        with m.If(began & (rows != 0)):
-            m.d.sync += [previous_rows.eq(rows), agreed.eq(rows == previous_rows)]
-            with m.If((height == 0) | (agreed & (rows == previous_rows))):
-                m.d.sync += height.eq(rows)
         return m

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from softdepth.hdl.front.frame_guard import FrameGuard
-from tests.support.frames import Lines, frames, line_of, lines, padded, partner, source
+from tests.support.frames import Frame, Lines, frames, line_of, lines, padded, partner, source
 from tests.support.simulation import Transfers, config, pair, sad, stream_through
 
 MAX_WIDTH = 10
@@ -209,65 +209,112 @@ def test_damage_is_mended_counted_and_marked(name: str, rates: tuple[float, floa
         assert marked == first_damaged
 
 
+@pytest.mark.parametrize("eof", [True, False])
+@pytest.mark.parametrize("before", [[], [lines(0, 5, 2)]], ids=["first", "second"])
 @pytest.mark.parametrize("rates", RATES)
-def test_lines_beyond_the_greatest_height_are_dropped(rates: tuple[float, float]) -> None:
+def test_a_frame_too_tall_is_cut_and_marked(
+    rates: tuple[float, float], before: list[Lines], eof: bool
+) -> None:
+    """The first frame too: nothing is known of it but that it does not fit."""
     high = lines(1, 5, MAX_HEIGHT + 2)
     after = lines(2, 5, 3)
-    result = guarded([*source(lines(0, 5, 2)), *source(high), *source(after)], rates)
+    result = guarded([t for f in [*before, high, after] for t in source(f, eof=eof)], rates)
     got = frames(result.payloads, CONFIG)
-    assert [f.lines for f in got] == [lines(0, 5, 2), high[:MAX_HEIGHT], after]
+    assert [f.lines for f in got] == [*before, high[:MAX_HEIGHT], after]
     assert result.status == {"missing_starts": 1}
-    # The source has marked an end before: this frame is known to be cut, where its last line ends.
-    assert [f.end for f in got] == ["eof"] * 3
-    assert got[1].damaged == [False] * (5 * MAX_HEIGHT - 1) + [True]
-    assert not any(got[0].damaged + got[2].damaged)
+    cut = got[len(before)]
+    assert (cut.end, cut.damaged) == ("end", [False] * (5 * MAX_HEIGHT) + [True])
+    assert not any(any(f.damaged) for f in got if f is not cut)
 
 
 @pytest.mark.parametrize("rates", RATES)
-def test_a_source_without_ends_may_be_cut_undamaged(rates: tuple[float, float]) -> None:
-    """It tells of no end that the core could miss; its rest is dropped and counted."""
-    high = lines(1, 5, MAX_HEIGHT + 2)
-    result = guarded([*source(high, eof=False), *source(lines(2, 5, MAX_HEIGHT), eof=False)], rates)
-    got = frames(result.payloads, CONFIG)
-    assert [f.lines for f in got] == [high[:MAX_HEIGHT], lines(2, 5, MAX_HEIGHT)]
-    assert not any(any(f.damaged) for f in got)
-    assert result.status == {"missing_starts": 1}
-
-
-@pytest.mark.parametrize("rates", RATES)
-def test_a_source_without_ends_teaches_its_height(rates: tuple[float, float]) -> None:
-    sent = [lines(n, 5, 4) for n in range(4)]
-    result = guarded(list(chain.from_iterable(source(f, eof=False) for f in sent)), rates)
+def test_a_source_without_ends_may_fill_the_greatest_height(rates: tuple[float, float]) -> None:
+    sent = [lines(n, 5, MAX_HEIGHT) for n in range(4)]
+    result = guarded([t for f in sent for t in source(f, eof=False)], rates)
     got = frames(result.payloads, CONFIG)
     assert [f.lines for f in got] == sent
-    assert [f.end for f in got] == ["end", "eof", "eof", "eof"]
     assert not any(any(f.damaged) for f in got)
     assert result.status == {}
 
 
-@pytest.mark.parametrize("rates", RATES)
-@pytest.mark.parametrize(("old", "new"), [(3, 5), (5, 3), (2, MAX_HEIGHT), (4, 1)])
-def test_the_height_changes_when_three_frames_agree(old: int, new: int, rates: tuple[float, float]) -> None:
-    heights = [old, old, new, new, new, new, new]
+def unmarked(
+    heights: list[int], rates: tuple[float, float]
+) -> tuple[list[Lines], list[Frame], dict[str, int]]:
+    """Frames of these heights without end marks: what was sent, what left, and the counters."""
     sent = [lines(n, 5, height) for n, height in enumerate(heights)]
-    result = guarded(list(chain.from_iterable(source(f, eof=False) for f in sent)), rates)
-    got = frames(result.payloads, CONFIG)
-    cut = [old, old, *[min(old, new)] * 3, new, new]
-    assert [f.lines for f in got] == [f[:height] for f, height in zip(sent, cut, strict=True)]
-    assert [f.end for f in got] == ["end", "eof", *(["eof"] if old < new else ["end"]) * 3, "eof", "eof"]
-    assert result.status == ({"missing_starts": 3} if old < new else {"early_starts": 3})
+    result = guarded([t for f in sent for t in source(f, eof=False)], rates)
+    return sent, frames(result.payloads, CONFIG), result.status
+
+
+@pytest.mark.parametrize("height", [1, 4])
+@pytest.mark.parametrize("rates", RATES)
+def test_two_frames_without_ends_teach_the_height(rates: tuple[float, float], height: int) -> None:
+    sent, got, status = unmarked([height] * 5, rates)
+    assert [f.lines for f in got] == sent
+    assert [f.end for f in got] == ["end", "end", "eof", "eof", "eof"]
+    assert not any(any(f.damaged) for f in got)
+    assert status == {}
+
+
+@pytest.mark.parametrize("rates", RATES)
+@pytest.mark.parametrize(("old", "new"), [(5, 3), (4, 1)])
+def test_a_lower_height_is_learnt_from_three_frames(old: int, new: int, rates: tuple[float, float]) -> None:
+    """Nothing is lost meanwhile."""
+    sent, got, status = unmarked([old, old, old, new, new, new, new, new], rates)
+    assert [f.lines for f in got] == sent
+    assert [f.end for f in got] == ["end", "end", "eof", "end", "end", "end", "eof", "eof"]
+    assert [any(f.damaged) for f in got] == [False] * 3 + [True] * 3 + [False] * 2
+    assert status == {"early_starts": 3}
+
+
+@pytest.mark.parametrize("rates", RATES)
+@pytest.mark.parametrize(("old", "new"), [(3, 5), (2, 7), (1, MAX_HEIGHT - 1)])
+def test_a_taller_frame_makes_the_height_forgotten(old: int, new: int, rates: tuple[float, float]) -> None:
+    """One frame loses lines; twice where the heights are multiples, as after starts that went missing."""
+    cut = 2 if new % old == 0 else 1
+    sent, got, status = unmarked([old, old, old, *[new] * (cut + 4)], rates)
+    kept = [old] * 3 + [old] * cut + [new] * 4
+    assert [f.lines for f in got] == [f[:height] for f, height in zip(sent, kept, strict=True)]
+    assert [f.end for f in got[3:]] == ["eof"] * cut + ["end", "end", "eof", "eof"]
+    assert not any(any(f.damaged) for f in got)
+    assert status == {"missing_starts": cut}
 
 
 @pytest.mark.parametrize("parts", [[2], [3], [2, 2]])
 def test_one_broken_frame_does_not_change_the_learnt_height(parts: list[int]) -> None:
     """A frame is cut short, or a start of frame in its middle makes two of it."""
-    heights = [4, 4, *parts, 4, 4]
-    sent = [lines(n, 5, height) for n, height in enumerate(heights)]
-    result = guarded(list(chain.from_iterable(source(f, eof=False) for f in sent)), (1.0, 1.0))
-    got = frames(result.payloads, CONFIG)
+    sent, got, _ = unmarked([4, 4, *parts, 4, 4], (1.0, 1.0))
     assert [f.lines for f in got] == sent
-    assert [f.end for f in got] == ["end", "eof", *["end"] * len(parts), "eof", "eof"]
-    assert [any(f.damaged) for f in got] == [height < 4 for height in heights]
+    assert [f.end for f in got] == ["end", "end", *["end"] * len(parts), "eof", "eof"]
+    assert [any(f.damaged) for f in got] == [False] * 2 + [True] * len(parts) + [False] * 2
+
+
+def test_one_start_that_is_missing_does_not_change_the_learnt_height() -> None:
+    sent = [lines(n, 5, 4) for n in range(5)]
+    transfers = [source(f, eof=False) for f in sent]
+    transfers[3] = source(sent[3], eof=False, marks={(0, 0): "none"})
+    result = guarded(list(chain.from_iterable(transfers)), (1.0, 1.0))
+    got = frames(result.payloads, CONFIG)
+    assert [f.lines for f in got] == [*sent[:3], sent[4]]
+    assert [f.end for f in got] == ["end", "end", "eof", "eof"]
+    assert result.status == {"missing_starts": 1}
+
+
+@pytest.mark.parametrize("eof", [True, False])
+@pytest.mark.parametrize(
+    "cut", [(2, 3), (2, 0), (1, 1)], ids=["in a line", "at a line", "in the second line"]
+)
+def test_a_first_frame_that_was_cut_teaches_nothing(cut: tuple[int, int], eof: bool) -> None:
+    rows, columns = cut
+    sent = lines(1, 8, 5)
+    part = source(sent[:rows], eof=False) + source(sent, eof=False)[8 * rows : 8 * rows + columns]
+    good = [lines(n, 8, 5) for n in (2, 3)]
+    result = guarded([*part, *(t for f in good for t in source(f, eof=eof))], (1.0, 1.0))
+    got = frames(result.payloads, CONFIG)
+    assert [f.lines for f in got[1:]] == good
+    assert any(got[0].damaged) == (columns > 0)
+    assert not any(any(f.damaged) for f in got[1:])
+    assert result.status == ({"early_starts": 1, "short_lines": 1} if columns else {})
 
 
 @pytest.mark.parametrize("seed", range(12))

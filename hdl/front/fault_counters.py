@@ -1,0 +1,35 @@
+"""How often which kind of broken input was met."""
+
+from amaranth.hdl import Module, Signal
+from amaranth.lib import wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.signatures import COUNTER_BITS, Status
+
+
+class FaultCounters(wiring.Component):
+    """A saturating counter for each member of `Status`.
+
+    A fault is counted two clocks after it is reported: a clock for the report to travel, so that counters
+    lie on nobody's longest path, and one for the counter itself.
+
+    Members
+    -------
+    short_lines, long_lines, early_starts, missing_starts : such a fault is met in this clock.
+    status : the counters since reset; they stay at their greatest value.
+    """
+
+    latency = 2
+
+    def __init__(self) -> None:
+        super().__init__({**{name: In(1) for name in Status.members}, "status": Out(Status)})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        for name in Status.members:
+            met = Signal(name=f"met_{name}")
+            counter = self.status[name]
+            m.d.sync += met.eq(getattr(self, name))
+            with m.If(met & (counter != 2**COUNTER_BITS - 1)):
+                m.d.sync += counter.eq(counter + 1)
+        return m

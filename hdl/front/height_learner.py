@@ -1,0 +1,106 @@
+"""Learns how a source's frames end, and tells which line is a frame's last."""
+
+from amaranth.hdl import Module, Mux, Signal
+from amaranth.lib import wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.spec.config import Config
+
+REPORT_CLOCKS = 3
+"""Clocks from a line's first pixel to what is said of the line: no line has fewer than `NARROWEST` pixels."""
+
+
+class HeightLearner(wiring.Component):
+    """Counts a frame's lines and knows where the frame ends, whether or not the source marks it.
+
+    It begins ``UNKNOWN``, and nothing but frames that are whole can change that. Two of them in a row that
+    are equally high and bear no end mark make the source one of known ``HEIGHT``: its frames end with
+    their last line. An end mark, wherever it stands, makes it one that ``MARKS`` its ends, until reset.
+
+    A known height changes when three whole frames in a row agree on a lower one. It is forgotten when
+    lines follow its last, which a taller frame has and which are lost. Whole multiples of the height are
+    forgiven once: starts of frame that went missing look the same.
+
+    Members
+    -------
+    frame : a frame's first pixel is taken in this clock.
+    line : a line's first pixel is taken, of a frame's first line too.
+    whole : a frame without fault has ended by the next frame's start, which is taken later.
+    dropped : a line has ended that belongs to no frame.
+    mark : an end mark is taken, wherever it stands.
+    is_last : the running line is the last of the known height, `REPORT_CLOCKS` after it began.
+    is_lowest : the running line is the last that ``max_height`` allows, as soon.
+    knows_end : frames of this source end by marks or by height, and not by the next frame's start.
+    """
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        inputs = ("frame", "line", "whole", "dropped", "mark")
+        outputs = ("is_last", "is_lowest", "knows_end")
+        super().__init__({**{name: In(1) for name in inputs}, **{name: Out(1) for name in outputs}})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        # What is reported comes from far away: it is looked at a clock later.
+        frame, line, whole, dropped, mark = (
+            Signal(name=f"{name}_was") for name in ("frame", "line", "whole", "dropped", "mark")
+        )
+        m.d.sync += [
+            frame.eq(self.frame),
+            line.eq(self.line),
+            whole.eq(self.whole),
+            dropped.eq(self.dropped),
+            mark.eq(self.mark),
+        ]
+
+        row = Signal(range(self._config.max_height))  # of the newest line
+        last = Signal.like(row)  # the last row, where the height is known
+        at_last = Signal()
+        m.d.comb += at_last.eq(row == last)
+        with m.If(line):
+            m.d.sync += row.eq(Mux(frame, 0, row + 1))
+
+        seen = Signal.like(row)  # the last row of the newest whole frame
+        streak = Signal(range(3))  # whole frames in a row that had it; more than two are two
+        agrees = Signal()
+        m.d.comb += agrees.eq((streak != 0) & (row == seen))
+        was_whole = Signal()
+        with m.If(whole):
+            m.d.sync += [seen.eq(row), streak.eq(Mux(agrees, 2, 1)), was_whole.eq(1)]
+        with m.If(frame):
+            m.d.sync += was_whole.eq(0)
+            with m.If(~was_whole):
+                m.d.sync += streak.eq(0)
+
+        overran = Signal()  # lines followed this frame's last
+        overran_before = Signal()
+        with m.FSM(name="ends") as ends:
+            with m.State("UNKNOWN"):
+                with m.If(whole & agrees):
+                    m.d.sync += last.eq(row)
+                    m.next = "HEIGHT"
+                with m.If(mark):
+                    m.next = "MARKS"
+            with m.State("HEIGHT"):
+                with m.If(dropped):
+                    # Counted modulo the height, so that the rows of whole frames end at the last.
+                    m.d.sync += [row.eq(Mux(at_last, 0, row + 1)), overran.eq(1)]
+                with m.If(whole & agrees & (streak == 2)):
+                    m.d.sync += last.eq(row)
+                with m.If(frame):
+                    m.d.sync += [overran.eq(0), overran_before.eq(overran)]
+                    with m.If(overran & (overran_before | ~at_last)):
+                        m.d.sync += overran_before.eq(0)
+                        m.next = "UNKNOWN"
+                with m.If(mark):
+                    m.next = "MARKS"
+            with m.State("MARKS"):
+                pass
+            m.d.comb += self.knows_end.eq(~ends.ongoing("UNKNOWN"))
+            knows_height = ends.ongoing("HEIGHT")
+
+        m.d.sync += [
+            self.is_last.eq(knows_height & at_last),
+            self.is_lowest.eq(row == self._config.max_height - 1),
+        ]
+        return m

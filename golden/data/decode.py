@@ -1,10 +1,12 @@
 """Image files decoded without conversion: whatever a camera or a data set wrote, and what white is in it."""
 
 import io
+import logging
 import os
 import re
 import struct
 import sys
+import tempfile
 import threading
 import warnings
 from collections.abc import Iterator
@@ -15,6 +17,7 @@ from pathlib import Path
 import cv2
 import netpbmfile
 import numpy as np
+import tifffile
 from PIL import Image
 
 from softdepth.golden.data.inputs import read_bytes, title
@@ -32,7 +35,8 @@ _BINARY_NETPBM = re.compile(
     rb"P[56]\s+(?:#[^\n]*\n\s*)*(\d+)\s+(?:#[^\n]*\n\s*)*(\d+)\s+(?:#[^\n]*\n\s*)*(\d+)\r\n"
 )
 _GRAY_MODES = ("1", "L", "LA", "La", "I", "F", "I;16", "I;16B", "I;16L")
-_BITS_PER_SAMPLE, _MAX_SAMPLE_VALUE = 258, 281  # tags of TIFF
+_TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_JPEG_DAMAGE = re.compile(r"Corrupt JPEG data: ([^\n]+)")
 _STDERR = 2
 _quiet_lock = threading.Lock()
 
@@ -100,7 +104,9 @@ def decode(data: bytes, path: str | Path) -> Raster:
         notes.append(f"{title(path)} is CMYK: it is converted to RGB")
         values = _with_pillow(data, path)
     else:
-        values = _with_opencv(data, path)
+        values, said = _with_opencv(data, path)
+        if damage := _JPEG_DAMAGE.search(said):
+            notes.append(f"{title(path)} may be damaged: {damage[1]}")
     _check_size(values.shape[1], values.shape[0], path)
     if header.mode in _GRAY_MODES and values.shape[2] == 4:
         # Gray with alpha: OpenCV has no such kind, and makes it a colour picture.
@@ -117,26 +123,26 @@ def _probe(data: bytes, path: str | Path) -> _Header:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
+            if data.startswith(_TIFF_STARTS):
+                return _probe_tiff(data)
             image = Image.open(io.BytesIO(data))
-            tags = getattr(image, "tag_v2", {})
-            return _Header(
-                image.format or "",
-                image.mode,
-                getattr(image, "n_frames", 1),
-                image.size,
-                _number(tags.get(_BITS_PER_SAMPLE)),
-                _white(_number(tags.get(_MAX_SAMPLE_VALUE))),
-            )
+            return _Header(image.format or "", image.mode, getattr(image, "n_frames", 1), image.size)
         except Image.DecompressionBombError as error:
             raise _too_large(f"'{path}' is too large", path) from error
         except Exception:  # a library for damaged files of any kind: what is wrong is told by the decoder
             return _Header()
 
 
-def _number(tag: object) -> int | None:
-    """The first of a TIFF tag's numbers."""
-    first = tag[0] if isinstance(tag, tuple) and tag else tag
-    return first if isinstance(first, int) else None
+def _probe_tiff(data: bytes) -> _Header:
+    """The same of a TIFF, with its bits a sample and its white: Pillow does not know all kinds."""
+    logging.getLogger("tifffile").disabled = True  # what it has to say about damaged tags
+    with tifffile.TiffFile(io.BytesIO(data)) as file:
+        page = file.pages.first
+        white = page.tags.get("MaxSampleValue")
+        value = white.value[0] if white and isinstance(white.value, tuple) else white and white.value
+        mode = "CMYK" if page.photometric == tifffile.PHOTOMETRIC.SEPARATED else ""
+        size = (page.imagewidth, page.imagelength)
+        return _Header("TIFF", mode, len(file.pages), size, page.bitspersample, _white(value))
 
 
 def _white(value: int | None) -> int | None:
@@ -144,18 +150,19 @@ def _white(value: int | None) -> int | None:
     return value if value is not None and 255 <= value < 65535 and value & (value + 1) == 0 else None
 
 
-def _with_opencv(data: bytes, path: str | Path) -> np.ndarray:
+def _with_opencv(data: bytes, path: str | Path) -> tuple[np.ndarray, str]:
+    """The pixels, and what the libraries said meanwhile."""
     try:
         # From memory, because `cv2.imread` fills up some cut files in silence; `imdecode` refuses them.
-        with quiet():
+        with quiet() as said:
             image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
     except cv2.error as error:
         raise _unreadable(path) from error
     if image is None:
         raise _unreadable(path)
     if image.ndim == 2:
-        return image[:, :, np.newaxis]
-    return image[:, :, [2, 1, 0, 3][: image.shape[2]]]
+        return image[:, :, np.newaxis], said.getvalue()
+    return image[:, :, [2, 1, 0, 3][: image.shape[2]]], said.getvalue()
 
 
 def _with_pillow(data: bytes, path: str | Path) -> np.ndarray:
@@ -184,7 +191,7 @@ def _netpbm(data: bytes, path: str | Path) -> Raster:
         raise _unreadable(path)
     notes = []
     if values.size > size:
-        notes.append(f"{title(path)} holds {values.size // size} pictures: the first is used")
+        notes.append(f"{title(path)} goes on after its first picture: only that is used")
     values = values.reshape(-1)[:size].reshape(height, width, depth)
     values = (~values if bitmap else values).astype(np.uint8 if white <= 0xFF else np.uint16)
     if values.max() > white:
@@ -221,23 +228,26 @@ def _unreadable(path: str | Path) -> InputError:
 
 
 @contextmanager
-def quiet() -> Iterator[None]:
-    """Keep what OpenCV, libpng, libjpeg and libtiff say off the terminal: the one-line error says it all.
+def quiet() -> Iterator[io.StringIO]:
+    """Keep what OpenCV, libpng, libjpeg and libtiff say off the terminal; it is in the result afterwards.
 
     The libraries write to the process's standard error themselves, so that is turned away for as long as
     they decode.
     """
-    with _quiet_lock, open(os.devnull, "wb") as nowhere:
+    said = io.StringIO()
+    with _quiet_lock, tempfile.TemporaryFile() as aside:
         if sys.stderr is not None:
             sys.stderr.flush()
         try:
             kept = os.dup(_STDERR)
         except OSError:  # there is none
-            yield
+            yield said
             return
         try:
-            os.dup2(nowhere.fileno(), _STDERR)
-            yield
+            os.dup2(aside.fileno(), _STDERR)
+            yield said
         finally:
             os.dup2(kept, _STDERR)
             os.close(kept)
+            aside.seek(0)
+            said.write(aside.read().decode("utf-8", "replace"))

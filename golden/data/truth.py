@@ -102,13 +102,14 @@ def read_truth(
         _ask_for_scale(values[known], found, path, candidates)
     with np.errstate(all="ignore"):
         disparity = np.where(known, values / (_SCALES[found] if scale is None else scale), np.nan)
+        disparity = disparity.astype(np.float32)
     _require_sense(disparity, path)
     zeros = np.mean(disparity == 0)
     if zeros > _MANY:
         share = f"{100 * zeros:.1f} % of the truth"
         notes += (f"{share} is 0, which is a disparity in floats; unknown is inf or NaN there",)
     gray = values if found == "gray8" else None
-    return replace(from_disparity(disparity.astype(np.float32), gray=gray, view=view), notes=notes)
+    return replace(from_disparity(disparity, gray=gray, view=view), notes=notes)
 
 
 def _read_values(path: str | Path) -> tuple[np.ndarray, str, tuple[str, ...]]:
@@ -246,6 +247,6 @@ def _partner(disparity: np.ndarray, view: View) -> tuple[np.ndarray, np.ndarray]
 
 def _one_channel(raster: Raster, path: str | Path) -> np.ndarray:
     colours = raster.values[:, :, :3]
-    if (colours != colours[:, :, :1]).any():
+    if not all(np.array_equal(colours[:, :, 0], colours[:, :, c]) for c in range(1, colours.shape[2])):
         raise InputError(f"truth '{path}' is a colour picture", "give disparities as gray levels or PFM")
     return colours[:, :, 0]

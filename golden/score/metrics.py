@@ -54,6 +54,57 @@ class Metrics:
         return {**flat, "paper_rmse": self.paper_rmse, "density": self.density}
 
 
+@dataclass(frozen=True)
+class Coverage:
+    """What of a frame is scored, and what of it no candidate can reach.
+
+    Parameters
+    ----------
+    scored : pixels of known disparity: these are scored.
+    scored_percent : per cent of the frame that they are.
+    outside : those of them whose disparity lies below the first candidate or above the last. They are
+        scored like the others, and so are wrong by as much as they lie outside.
+    outside_percent : per cent of the scored pixels that they are.
+    first, last : the candidates' range, in pixels of disparity.
+    """
+
+    scored: int
+    scored_percent: float
+    outside: int
+    outside_percent: float
+    first: int
+    last: int
+
+    def __str__(self) -> str:
+        text = f"scored: {self.scored} pixels of known disparity, {self.scored_percent:.2f} % of the frame"
+        if not self.outside:
+            return text
+        return (
+            f"{text}; {self.outside_percent:.2f} % of them lie outside {self.first} .. {self.last},"
+            " and count as wrong, not as absent"
+        )
+
+
+def coverage(truth: Truth, first: int, last: int) -> Coverage:
+    """How much of a frame is scored with this truth, for candidates `first` to `last`."""
+    known = truth.known
+    scored = int(known.sum())
+    outside = int(np.sum(known & ((truth.disparity < first) | (truth.disparity > last))))
+    return Coverage(
+        scored,
+        100 * scored / max(known.size, 1),
+        outside,
+        100 * outside / max(scored, 1),
+        first,
+        last,
+    )
+
+
+def density(valid: np.ndarray) -> float:
+    """Per cent of a map's pixels that have a result: `valid` is bool H x W."""
+    return float(100 * valid.mean())
+
+
 def evaluate(disparity: np.ndarray, truth: Truth, *, valid: np.ndarray | None = None) -> Metrics:
     """Score a map of disparities, in pixels, against the truth of the same view.
 
@@ -85,7 +136,7 @@ def evaluate(disparity: np.ndarray, truth: Truth, *, valid: np.ndarray | None = 
         nonocc=None if truth.nonoccluded is None else over(known & truth.nonoccluded),
         measured=over(known & valid),
         paper_rmse=paper_rmse(disparity, truth.gray, valid=valid),
-        density=float(100 * valid.mean()),
+        density=density(valid),
     )
 
 

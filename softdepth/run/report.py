@@ -5,6 +5,7 @@
 
 import json
 import platform
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
@@ -29,7 +30,7 @@ FILES = ("disparity.png", "disparity.pfm", "colour.png", "overview.png", "error.
 
 
 class Accuracy(BaseModel):
-    """One engine's scores; all None where it was not measured or the truth is unknown."""
+    """One engine's scores; all None where it was not measured, and all but `density` without a truth."""
 
     bad1: float | None = None
     bad2: float | None = None
@@ -45,6 +46,17 @@ class Accuracy(BaseModel):
     measured_rmse: float | None = None
     paper_rmse: float | None = None
     density: float | None = None
+
+
+class Scored(BaseModel):
+    """What the scores are over; see `softdepth.golden.score.metrics.Coverage`."""
+
+    scored: int
+    scored_percent: float
+    outside: int
+    outside_percent: float
+    first: int
+    last: int
 
 
 class Report(BaseModel):
@@ -63,6 +75,7 @@ class Report(BaseModel):
     link: dict[str, int] | None = None
     seconds: dict[Engine, float | None]
     metrics: dict[Engine, Accuracy]
+    truth: Scored | None = None
     config: dict[str, Any]
     config_hash: str
     tools: dict[str, str | None]
@@ -87,6 +100,7 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
         link=measurement.link,
         seconds={engine: measurement.seconds.get(engine) for engine in ENGINES},
         metrics=metrics,
+        truth=scored(pair.truth, config),
         config=config.model_dump(mode="json"),
         config_hash=config.hash,
         tools=_tools("rtl" in measurement.maps),
@@ -94,12 +108,21 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
 
 
 def accuracy(found: "DisparityMap", truth: "Truth | None") -> Accuracy:
-    """The scores of a map; all None without a truth."""
-    from softdepth.golden.score.metrics import evaluate
+    """The scores of a map; without a truth the density alone."""
+    from softdepth.golden.score.metrics import density, evaluate
 
     if truth is None:
-        return Accuracy()
+        return Accuracy(density=density(found.valid))
     return Accuracy.model_validate(evaluate(found.disparity, truth, valid=found.valid).as_dict())
+
+
+def scored(truth: "Truth | None", config: Config) -> Scored | None:
+    """What of the frame is scored with this truth, and how much of it the candidates cannot reach."""
+    from softdepth.golden.score.metrics import coverage
+
+    if truth is None:
+        return None
+    return Scored.model_validate(asdict(coverage(truth, 0, config.disparities - 1)))
 
 
 def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measurement, report: Report) -> None:
@@ -126,6 +149,7 @@ def show(report: Report) -> None:
     name, digest = report.config["name"], report.config_hash
     print(f"{report.pair}, {report.width}x{report.height} = {report.pixels} pixels; {name} ({digest})")
     screen.console().print(_table(report))
+    print(_scored(report))
     if report.rtl_mismatches is None:
         return
     print(f"gateware against fixed model: {report.rtl_mismatches} mismatches in {report.pixels} pixels")
@@ -134,6 +158,15 @@ def show(report: Report) -> None:
         return
     print(f"{report.cycles_per_pixel:.3f} clock cycles per pixel")
     print(f"{report.sim_pixels_per_second:,.0f} simulated pixels per second")
+
+
+def _scored(report: Report) -> str:
+    """What the scores are over, in a line."""
+    from softdepth.golden.score.metrics import Coverage
+
+    if report.truth is None:
+        return "scored: no pixel, because no ground truth is given"
+    return str(Coverage(**report.truth.model_dump()))
 
 
 def _link(counters: dict[str, int]) -> str:
@@ -157,6 +190,7 @@ def _table(report: Report) -> Table:
         ("mean absolute error", "mae", " px"),
         ("RMS error", "rmse", " px"),
         ("paper's RMSE, gray levels", "paper_rmse", ""),
+        ("pixels with a result", "density", " %"),
     ):
         scores = [getattr(report.metrics[engine], key) for engine in engines]
         table.add_row(label, *("-" if score is None else f"{score:.2f}{unit}" for score in scores))

@@ -56,7 +56,8 @@ def write(
     from softdepth.files import write_atomically
     from softdepth.studies.compare import pictures
 
-    reference = pair.right if config.reference == "right" else pair.left
+    shown = pair.as_format("rgb8")
+    reference = shown.right if config.reference == "right" else shown.left
     picture = pictures.differences(
         reference, measurement.result, measurement.maps["float"], config.disparities - 1
     )

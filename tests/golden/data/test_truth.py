@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from softdepth.golden.data.truth import Truth, View, cross_check, from_disparity, read_truth, visible, warp
-from softdepth.golden.data.writers import write_disparity_png
+from softdepth.golden.data.writers import write_disparity_png, write_pfm
 from softdepth.spec.errors import InputError
 from tests.golden.conftest import save
 
@@ -191,3 +191,86 @@ def test_read_truth_finds_occlusions_of_its_view(tmp_path: Path) -> None:
 def test_views_of_other_sizes() -> None:
     with pytest.raises(InputError, match="7x1 and 6x1"):
         cross_check(LEFT, RIGHT[:, 1:])
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.float16, np.int16, np.uint8])
+def test_npy(tmp_path: Path, dtype: type) -> None:
+    """Of any type of number; 0 and negative values are disparities, NaN and infinite ones unknown."""
+    values = np.array([[0, 3, 12], [7, 1, 60]], dtype)
+    expected = values.astype(np.float32)
+    if np.issubdtype(dtype, np.floating):
+        values[0, 1], values[1, 1] = NAN, np.inf
+        values[1, 2], expected[1, 2] = -2, -2
+        expected[0, 1] = expected[1, 1] = NAN
+    np.save(path := tmp_path / "d.npy", values)
+    np.testing.assert_array_equal(read_truth(path).disparity, expected)
+    np.testing.assert_array_equal(read_truth(path, kind="npy", scale=2).disparity, expected / 2)
+
+
+def test_npy_with_an_axis_too_many(tmp_path: Path) -> None:
+    values = np.arange(6, dtype=np.float32).reshape(1, 2, 3, 1)
+    np.save(path := tmp_path / "d.npy", values)
+    np.testing.assert_array_equal(read_truth(path).disparity, values[0, :, :, 0])
+
+
+@pytest.mark.parametrize(
+    ("values", "problem"),
+    [
+        (np.zeros((2, 3, 3)), "has the shape"),
+        (np.zeros(7), "has the shape"),
+        (np.zeros((0, 3)), "has the shape"),
+        (np.zeros((2, 2), complex), "complex128"),
+        (np.zeros((2, 2), bool), "bool"),
+    ],
+)
+def test_npy_that_is_no_map(tmp_path: Path, values: np.ndarray, problem: str) -> None:
+    np.save(path := tmp_path / "d.npy", values)
+    assert problem in refused(path)
+
+
+def test_npy_with_objects_is_not_run(tmp_path: Path) -> None:
+    np.save(path := tmp_path / "d.npy", np.array([[print]], object), allow_pickle=True)
+    assert "no readable NPY" in refused(path)
+    path.write_bytes(path.read_bytes()[:40])
+    assert "no readable NPY" in refused(path)
+
+
+def test_float_tiff(tmp_path: Path) -> None:
+    values = np.array([[0, 2.5, NAN], [-4, np.inf, 60]], np.float32)
+    path = save(tmp_path / "d.tiff", values)
+    np.testing.assert_array_equal(read_truth(path).disparity, np.where(np.isfinite(values), values, NAN))
+    assert read_truth(path, kind="float").notes
+
+
+def test_zeros_in_floats_are_noted(tmp_path: Path) -> None:
+    values = np.full((10, 10), 5, np.float32)
+    values[:3] = 0
+    write_pfm(path := tmp_path / "d.pfm", values)
+    assert "30.0 % of the truth is 0" in read_truth(path).notes[0]
+    values[:3] = 1
+    write_pfm(path, values)
+    assert read_truth(path).notes == ()
+
+
+@pytest.mark.parametrize(
+    ("levels", "dtype", "asked"),
+    [
+        ([0, 5, 9, 31], np.uint8, True),  # a level a pixel
+        ([0, 5, 9, 32], np.uint8, False),
+        ([0, 4, 8, 20], np.uint8, False),  # whole pixels at 4 levels each
+        ([0, 5, 9, 31], np.uint16, True),
+        ([0, 5, 9, 255], np.uint16, True),  # all below a pixel
+        ([0, 256, 300, 511], np.uint16, False),
+    ],
+)
+def test_levels_that_cannot_be_right_are_asked_about(
+    tmp_path: Path, levels: list[int], dtype: type, asked: bool
+) -> None:
+    path = save(tmp_path / "d.png", np.array([levels], dtype))
+    if asked:
+        with pytest.raises(InputError, match=f"levels up to {max(levels)}.*--gt-scale"):
+            read_truth(path, candidates=32)
+    else:
+        read_truth(path, candidates=32)
+    read_truth(path, candidates=32, scale=2)  # who says the scale is not asked
+    read_truth(path)

@@ -21,26 +21,33 @@ Which candidates and pixels take part is `borders.validity_codes`' and `candidat
 With ``cost = "sad"`` steps 2 to 5 fall away: N is the first criterion, S is 1.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.golden.costs.candidates import band, bands
+from softdepth.golden.costs.candidates import band
 from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.fixed_operators import conclude
 from softdepth.golden.costs.fuzzy.inference import Memberships
 from softdepth.golden.front.borders import validity_codes
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
 from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
-from softdepth.golden.maps import DisparityMap
-from softdepth.spec.config import LITERAL_INPUT, Config, Criterion
+from softdepth.golden.maps import DisparityMap, Result
+from softdepth.golden.post import stages as post
+from softdepth.golden.winners.confidence import confidence
+from softdepth.golden.winners.cost import Comparison, Cost, less, less_fraction
+from softdepth.golden.winners.frame import Winners, winners
+from softdepth.spec.config import LITERAL_INPUT, QUOTIENT_BITS, Config, Criterion
 from softdepth.spec.errors import InputError
 from softdepth.spec.rules import CONCLUSIONS, weight
 from softdepth.spec.validity import Validity
 
 Integers = NDArray[np.signedinteger[Any]]
+
+NEVER = 1 << 30
+"""Above every cost: stands for a candidate that does not take part."""
 
 
 def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
@@ -48,23 +55,66 @@ def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
 
     Raises `InputError` for unusable images, or images wider than `config.max_width`.
     """
+    return stages(left, right, config).result
+
+
+@dataclass(frozen=True, eq=False)
+class Stages:
+    """A frame, stage by stage.
+
+    Members
+    -------
+    winners : of both views, with the costs around the left one; in the core's view.
+    maps : by name, the map after each stage of `post.stages`, in the user's reference view.
+    """
+
+    winners: Winners
+    maps: dict[str, DisparityMap]
+
+    @property
+    def result(self) -> DisparityMap:
+        """The map after the last."""
+        return list(self.maps.values())[-1]
+
+
+def stages(left: Image, right: Image, config: Config) -> Stages:
+    """What `disparity` gives, and all that it comes from. Errors as there."""
     _check(left, right, config)
     reference, other = to_core_view(left, right, config)
     height, width, _ = reference.shape
-    disparities = np.zeros((height, width), np.uint16)
-    for part in bands(reference, other, config):
-        winner = disparities[part.rows, part.columns]
-        best_n = best_s = None
-        for d, criteria in part.candidates():
-            n, s = fraction(config, d, criteria)
-            if best_n is None or best_s is None:  # d = 0, which every pixel has
-                best_n, best_s = n, s
-                continue
-            better = n * best_s[:, d:] < best_n[:, d:] * s
-            np.copyto(best_n[:, d:], n, where=better)
-            np.copyto(best_s[:, d:], s, where=better)
-            winner[:, d:][better] = d
-    return from_core_view(DisparityMap(disparities, validity_codes(height, width, config)), config)
+    found = winners(
+        reference, other, config, lambda d, criteria: cost_of(config, d, criteria), comparison(config)
+    )
+    done = post.stages(config, found, validity_codes(height, width, config), reference)
+    sure = confidence(config, found) if config.post.confidence else None
+    maps, fraction_bits = {}, 0
+    for stage in done:
+        if stage.name == "sixteenths":
+            fraction_bits = config.post.fraction_bits
+        measured = stage.code < Validity.BORDER
+        kept = None if sure is None else np.where(measured, sure, np.uint8(0))
+        after = DisparityMap(stage.disparity, stage.code, fraction_bits, kept)
+        maps[stage.name] = from_core_view(after, config)
+    return Stages(found, maps)
+
+
+def cost_of(config: Config, d: int, criteria: list[Values]) -> Cost:
+    """Steps 2 to 5: what a candidate costs, as the winners compare it."""
+    return (total(criteria),) if config.cost == "sum" else fraction(config, d, criteria)
+
+
+def comparison(config: Config) -> Comparison:
+    """How costs compare, and what number each is (`Config.number_range`)."""
+    if config.cost == "sum":
+        return Comparison(less, lambda cost: cost[0], NEVER)
+    low, high = config.number_range
+
+    def number(cost: Cost) -> Integers:
+        n, s = (part.astype(np.int64) for part in cost)
+        quotient = (n << QUOTIENT_BITS) // np.maximum(s, 1)
+        return np.where(s > 0, np.clip(quotient, low, high), high)
+
+    return Comparison(less_fraction, number, NEVER)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +128,12 @@ class Trace:
     memberships : candidates x criteria x 3, low to high.
     conclusions : candidates x 11, ``Y_1`` first.
     numerator, denominator : one per candidate, N and S.
-    disparity, code : the pixel's result.
+    winner : the candidate of least cost.
+    right : the right winner of its partner, where the configuration checks it.
+    around : costs, as numbers, of the candidates beside the winner and of the runner-up, as `Winners` has
+        them; None where no candidate takes part. Empty where the configuration asks for none.
+    stages : the result after each stage of `post.stages`.
+    disparity, code, confidence : the pixel's result.
 
     Excluded candidates have no row: a border pixel has none at all. With ``cost = "sad"``
     memberships and conclusions are empty.
@@ -90,32 +145,43 @@ class Trace:
     conclusions: NDArray[np.int64]
     numerator: NDArray[np.int64]
     denominator: NDArray[np.int64]
+    winner: int
+    right: int | None
+    around: dict[str, int | None]
+    stages: dict[str, Result]
     disparity: int
     code: Validity
+    confidence: int | None
 
     def __str__(self) -> str:
-        """A table: one line per candidate."""
+        """A table: one line per candidate, then one per stage."""
         lines = [f"disparity {self.disparity} ({self.code.name})", "d: criteria -> inputs | Y_1..Y_11 | N/S"]
         rows = zip(
             self.criteria, self.inputs, self.conclusions, self.numerator, self.denominator, strict=True
         )
         lines += [f"{d}: {c} -> {i} | {y} | {n}/{s}" for d, (c, i, y, n, s) in enumerate(rows)]
+        if self.right is not None:
+            lines.append(f"right winner at x - {self.winner}: {self.right}")
+        lines += [f"{name}: {'none' if cost is None else cost}" for name, cost in self.around.items()]
+        if len(self.stages) > 1:
+            lines += [f"after {name}: {result}" for name, result in self.stages.items()]
         return "\n".join(lines)
 
 
-def trace(left: Image, right: Image, config: Config, x: int, y: int) -> Trace:
+def trace(left: Image, right: Image, config: Config, x: int, y: int, frame: Stages | None = None) -> Trace:
     """Every intermediate quantity of the pixel (x, y) of the reference view, to debug gateware by.
 
+    `frame` are the pair's `stages`, if they are known already: post-processing needs the whole frame.
     Errors as in `disparity`; `InputError` also for a pixel outside the image.
     """
     _check(left, right, config)
     check_pixel(left, x, y)
     reference, other = to_core_view(left, right, config)
     height, width, _ = reference.shape
+    user_x = x
     x = column_in_core_view(x, width, config)
-    code = Validity(int(validity_codes(height, width, config)[y, x]))
-    rows: dict[str, list[Any]] = {f.name: [] for f in fields(Trace) if f.name not in ("disparity", "code")}
-    winner = 0
+    rows: dict[str, list[Any]] = {name: [] for name in _BY_CANDIDATE}
+    winner, code = 0, int(validity_codes(height, width, config)[y, x])
     if code < Validity.BORDER:
         column = x - config.reach_left
         for d, block in band(reference, other, config, y, y + 1).candidates():
@@ -123,19 +189,48 @@ def trace(left: Image, right: Image, config: Config, x: int, y: int) -> Trace:
                 break
             criteria = [values[:, column - d : column - d + 1] for values in block]
             inputs = compensated(config, d, criteria)
-            degrees = [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
             fuzzy = config.cost == "fuzzy"
+            degrees = (
+                [memberships(c, v, config) for c, v in zip(config.criteria, inputs, strict=True)]
+                if fuzzy
+                else []
+            )
             y_k = conclude(config, degrees) if fuzzy else ()
             n, s = fraction(config, d, criteria)
             rows["criteria"].append([v.item() for v in criteria])
             rows["inputs"].append([v.item() for v in inputs])
-            rows["memberships"].append([[a.item() for a in triple] for triple in degrees if fuzzy])
+            rows["memberships"].append([[a.item() for a in triple] for triple in degrees])
             rows["conclusions"].append([value.item() for _, value in y_k])
             rows["numerator"].append(n.item())
             rows["denominator"].append(s.item())
             if n.item() * rows["denominator"][winner] < rows["numerator"][winner] * s.item():
                 winner = d
-    return Trace(**{name: np.array(v, np.int64) for name, v in rows.items()}, disparity=winner, code=code)
+    after, around, other_winner = {"winner": Result(winner, code)}, {}, None
+    if config.post.any:
+        frame = frame or stages(left, right, config)
+        after = {name: found.at(user_x, y) for name, found in frame.maps.items()}
+        found = frame.winners
+        if config.post.check:
+            other_winner = int(found.right[y, max(x - winner, 0)])
+        if config.post.fraction_bits or config.post.confidence:
+            for name in ("below", "at", "above", "runner_up"):
+                number = int(getattr(found, name)[y, x])
+                around[name] = None if number == found.never else number
+    result = list(after.values())[-1]
+    return Trace(
+        **{name: np.array(v, np.int64) for name, v in rows.items()},
+        winner=winner,
+        right=other_winner,
+        around=around,
+        stages=after,
+        disparity=result.disparity,
+        code=Validity(result.code),
+        confidence=result.confidence,
+    )
+
+
+_BY_CANDIDATE = ("criteria", "inputs", "memberships", "conclusions", "numerator", "denominator")
+"""Members of `Trace` that have a row a candidate."""
 
 
 def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, Integers]:
@@ -144,7 +239,8 @@ def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, 
     Both come in a type that holds the products of any two candidates.
     """
     if config.cost == "sum":
-        return criteria[0], np.ones_like(criteria[0])
+        n = total(criteria)
+        return n, np.ones_like(n)
     # No strength exceeds 3 * one (the mean's sum), nor falls below minus that.
     n_max = 3 * config.one * sum(abs(weight(k)) for k in range(1, CONCLUSIONS + 1))
     s_max = 3 * config.one * CONCLUSIONS
@@ -159,6 +255,11 @@ def fraction(config: Config, d: int, criteria: list[Values]) -> tuple[Integers, 
     if worst.any():  # soft-min I alone can do that
         n[worst], s[worst] = 1, 0
     return n, s
+
+
+def total(criteria: list[Values]) -> Values:
+    """The sum of the criteria."""
+    return sum(criteria[1:], start=criteria[0])
 
 
 def compensated(config: Config, d: int, criteria: list[Values]) -> list[Values]:

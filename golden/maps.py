@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,17 @@ from softdepth.spec.validity import Validity
 
 
 class Result(NamedTuple):
-    """One pixel's result: disparity in pixels, and its `Validity` code as a plain number."""
+    """One pixel's result: disparity in the map's units, its `Validity` code as a plain number, confidence."""
 
     disparity: int
     code: int
+    confidence: int | None = None
 
     def __str__(self) -> str:
         known = self.code in Validity.__members__.values()
-        return f"{self.disparity} ({Validity(self.code).name if known else f'code {self.code}'})"
+        code = Validity(self.code).name if known else f"code {self.code}"
+        sure = "" if self.confidence is None else f", confidence {self.confidence}"
+        return f"{self.disparity} ({code}{sure})"
 
 
 class Difference(NamedTuple):
@@ -40,27 +43,37 @@ class DisparityMap:
 
     Members
     -------
-    disparity : HxW uint16, in pixels; 0 where there is no measurement.
+    disparity : HxW uint16, in units of ``2**-fraction_bits`` pixels; 0 where there is none.
     code : HxW uint8, a `Validity` each.
+    fraction_bits : `Post.fraction_bits`.
+    confidence : HxW uint8, 255 the surest and 0 where nothing was measured; None where a core gives none.
 
-    Raises `InputError` unless both are two-dimensional, of these types and of one shape.
+    Raises `InputError` unless all are two-dimensional, of these types and of one shape.
     """
 
     disparity: NDArray[np.uint16]
     code: NDArray[np.uint8]
+    fraction_bits: int = 0
+    confidence: NDArray[np.uint8] | None = None
 
     def __post_init__(self) -> None:
-        for name, array, dtype in (("disparity", self.disparity, np.uint16), ("code", self.code, np.uint8)):
+        arrays: list[tuple[str, NDArray[Any], type]] = [
+            ("disparity", self.disparity, np.uint16),
+            ("code", self.code, np.uint8),
+        ]
+        if self.confidence is not None:
+            arrays.append(("confidence", self.confidence, np.uint8))
+        for name, array, dtype in arrays:
             if array.ndim != 2 or array.dtype != dtype:
                 raise InputError(
                     f"{name} is {array.dtype} of shape {array.shape}",
                     f"give a two-dimensional {np.dtype(dtype)} array",
                 )
-        if self.disparity.shape != self.code.shape:
-            raise InputError(
-                f"disparity has shape {self.disparity.shape}, code has shape {self.code.shape}",
-                "give both for the same pixels",
-            )
+            if self.disparity.shape != array.shape:
+                raise InputError(
+                    f"disparity has shape {self.disparity.shape}, {name} has shape {array.shape}",
+                    "give both for the same pixels",
+                )
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -73,23 +86,46 @@ class DisparityMap:
         """HxW: where the disparity is a measurement."""
         return self.code < Validity.BORDER
 
+    @property
+    def given(self) -> NDArray[np.bool_]:
+        """HxW: where there is a disparity, measured or filled."""
+        return self.valid | (self.code == Validity.FILLED)
+
+    @property
+    def pixels(self) -> NDArray[np.float32]:
+        """HxW: the disparities in pixels."""
+        return self.disparity.astype(np.float32) / np.float32(1 << self.fraction_bits)
+
     def mirrored(self) -> Self:
         """The map with every row reversed."""
-        return type(self)(self.disparity[:, ::-1], self.code[:, ::-1])
+        sure = None if self.confidence is None else self.confidence[:, ::-1]
+        return type(self)(self.disparity[:, ::-1], self.code[:, ::-1], self.fraction_bits, sure)
 
     def differences(self, got: Self) -> Iterator[Difference]:
         """Pixels in which `got` departs from this, the expected map; raster order.
 
-        Raises `InputError` when the shapes differ.
+        Raises `InputError` when the shapes or units differ, or one alone has confidences.
         """
         if self.shape != got.shape:
             raise InputError(f"expected a {self.shape} map, got {got.shape}", "compare maps of one frame")
+        mine, other = (
+            (found.fraction_bits, "no" if found.confidence is None else "a") for found in (self, got)
+        )
+        if mine != other:
+            raise InputError(
+                f"expected {mine[0]} fraction bits and {mine[1]} confidence, got {other[0]} and {other[1]}",
+                "compare maps of one configuration",
+            )
         return self._differences(got)
 
     def _differences(self, got: Self) -> Iterator[Difference]:
-        for y, x in np.argwhere((self.disparity != got.disparity) | (self.code != got.code)).tolist():
+        differs = (self.disparity != got.disparity) | (self.code != got.code)
+        if self.confidence is not None and got.confidence is not None:
+            differs |= self.confidence != got.confidence
+        for y, x in np.argwhere(differs).tolist():
             yield Difference(y, x, self.at(x, y), got.at(x, y))
 
     def at(self, x: int, y: int) -> Result:
         """The result of one pixel."""
-        return Result(int(self.disparity[y, x]), int(self.code[y, x]))
+        sure = None if self.confidence is None else int(self.confidence[y, x])
+        return Result(int(self.disparity[y, x]), int(self.code[y, x]), sure)

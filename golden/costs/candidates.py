@@ -1,12 +1,9 @@
 """Every candidate of every pixel, in bands of rows that stay in a processor's cache."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
-from softdepth.golden.costs.criteria import Values, evaluate
-from softdepth.golden.costs.sad import Planes
+from softdepth.golden.costs.criteria import FrameCriteria, Values
 from softdepth.golden.front.pair import Image
 from softdepth.spec.config import Config
 
@@ -16,19 +13,18 @@ BAND_PIXELS = 16384
 
 @dataclass(frozen=True)
 class Band:
-    """Consecutive rows of the pixels that have a result, with the image blocks of their support.
+    """Consecutive rows of the pixels that have a result.
 
     Members
     -------
     rows, columns : the pixels' place in the frame.
-    left, right : channels x (rows + 2*reach_rows) x width of the frame.
+    criteria : the function from a candidate to its criteria.
     """
 
     config: Config
     rows: slice
     columns: slice
-    left: Planes
-    right: Planes
+    criteria: Callable[[int], list[Values]]
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -42,9 +38,8 @@ class Band:
         window would leave the other image. Candidates that no pixel has do not occur.
         """
         _, columns = self.shape
-        width = self.left.shape[2]
         for d in range(min(self.config.disparities, columns)):
-            yield d, evaluate(self.config, self.left[:, :, d:], self.right[:, :, : width - d])
+            yield d, self.criteria(d)
 
 
 def bands(left: Image, right: Image, config: Config) -> Iterator[Band]:
@@ -52,9 +47,10 @@ def bands(left: Image, right: Image, config: Config) -> Iterator[Band]:
     height, width, _ = left.shape
     first, stop = config.reach_rows, height - config.reach_rows
     step = max(1, BAND_PIXELS // width)
-    if width > config.reach_left + config.reach_right:
+    if width > config.reach_left + config.reach_right and first < stop:
+        criteria = FrameCriteria(config, left, right)
         for y in range(first, stop, step):
-            yield band(left, right, config, y, min(y + step, stop))
+            yield _band(criteria, left, config, y, min(y + step, stop))
 
 
 def band(left: Image, right: Image, config: Config, first: int, stop: int) -> Band:
@@ -62,15 +58,9 @@ def band(left: Image, right: Image, config: Config, first: int, stop: int) -> Ba
     height, width, _ = left.shape
     assert config.reach_rows <= first < stop <= height - config.reach_rows
     assert width > config.reach_left + config.reach_right
-    support = slice(first - config.reach_rows, stop + config.reach_rows)
-    return Band(
-        config,
-        slice(first, stop),
-        slice(config.reach_left, width - config.reach_right),
-        _planes(left[support]),
-        _planes(right[support]),
-    )
+    return _band(FrameCriteria(config, left, right), left, config, first, stop)
 
 
-def _planes(block: Image) -> Planes:
-    return np.ascontiguousarray(block.transpose(2, 0, 1))
+def _band(criteria: FrameCriteria, left: Image, config: Config, first: int, stop: int) -> Band:
+    columns = slice(config.reach_left, left.shape[1] - config.reach_right)
+    return Band(config, slice(first, stop), columns, criteria.band(first, stop))

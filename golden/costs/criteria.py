@@ -1,41 +1,78 @@
 """The criteria of a candidate: the numbers that say how unlike two windows are."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from softdepth.golden.costs.sad import Planes, sad
-from softdepth.spec.config import Config, Sad
+from softdepth.golden.costs.census import CensusValues
+from softdepth.golden.costs.gradient import GradientValues
+from softdepth.golden.costs.sad import SadValues
+from softdepth.golden.costs.values import Values
+from softdepth.golden.front.pair import Image
+from softdepth.spec.config import Config
 
-Values = NDArray[np.int32]
-
-EVALUATE: Mapping[str, Callable[[Any, Planes, Planes], Values]] = {"sad": sad}
-"""The function of each `kind` of criterion: (criterion, left, right) -> values.
-
-It gets its own support only, blocks that exceed the result by the criterion's radius on each side.
-"""
+__all__ = ["EVALUATE", "FrameCriteria", "Values", "compensate"]
 
 
-def evaluate(config: Config, left: Planes, right: Planes) -> list[Values]:
-    """All criteria of the pixels whose supports fill two blocks of one shape.
+class FrameValues(Protocol):
+    """One criterion over a frame, from which it gives one band of rows after the other.
 
-    Blocks are channels x (rows + 2*reach_rows) x (reach_left + columns + reach_right), `right`
-    already shifted by the candidate. Each result is rows x columns.
+    Members
+    -------
+    first_column : the first column whose pixel has all of its window.
     """
-    _, height, width = left.shape
-    rows = height - 2 * config.reach_rows
-    columns = width - config.reach_left - config.reach_right
-    values = []
-    for criterion in config.criteria:
-        assert isinstance(criterion, Sad)
-        r = criterion.radius
-        top = config.reach_rows - r
-        start = config.reach_left + criterion.dx - r
-        part = np.s_[:, top : top + rows + 2 * r, start : start + columns + 2 * r]
-        values.append(EVALUATE[criterion.kind](criterion, left[part], right[part]))
-    return values
+
+    first_column: int
+
+    def band(self, first: int, stop: int) -> Callable[[int], Values]:
+        """The function from a candidate d to the values of rows ``first .. stop - 1``.
+
+        It gives the pixels that have all of their window, as has their partner: the first is that of
+        column ``first_column + d``.
+        """
+        ...
+
+
+EVALUATE: Mapping[str, Callable[[Any, Image, Image], FrameValues]] = {
+    "sad": SadValues,
+    "census": CensusValues,
+    "gradient": GradientValues,
+}
+"""What each `kind` of criterion is computed by: (criterion, left, right) of a whole frame."""
+
+
+class FrameCriteria:
+    """All criteria of a frame's pixels.
+
+    Parameters
+    ----------
+    left, right : the views as the core sees them, rows x columns x channels.
+    """
+
+    def __init__(self, config: Config, left: Image, right: Image) -> None:
+        self._config = config
+        self._width = left.shape[1]
+        self._parts = [EVALUATE[c.kind](c, left, right) for c in config.criteria]
+
+    def band(self, first: int, stop: int) -> Callable[[int], list[Values]]:
+        """The function from a candidate d to all criteria of rows ``first .. stop - 1``.
+
+        Each is rows x (columns - d), where columns are those with a result: candidate d is excluded in the
+        first d of them.
+        """
+        config = self._config
+        parts = [part.band(first, stop) for part in self._parts]
+        columns = self._width - config.reach_left - config.reach_right
+        # A smaller window has values in the border band of the largest.
+        starts = [config.reach_left - part.first_column for part in self._parts]
+
+        def values(d: int) -> list[Values]:
+            return [
+                part(d)[:, start : start + columns - d] for part, start in zip(parts, starts, strict=True)
+            ]
+
+        return values
 
 
 def compensate(config: Config, d: int, values: list[Values], replacement: list[int]) -> list[Values]:

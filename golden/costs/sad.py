@@ -1,12 +1,50 @@
-"""The sum of absolute RGB differences (eq. 7)."""
+"""The criterion `sad`: the sum of absolute RGB differences (eq. 7), or of differences of the gradient."""
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.spec.config import Sad
+from softdepth.golden.front.gradient import BITS, gradient
+from softdepth.golden.front.luma import luma
+from softdepth.golden.front.pair import Image
+from softdepth.spec.criteria import GRADIENT_CAP, Sad
 
-Planes = NDArray[np.uint8]
+Planes = NDArray[Any]
 """Channels x rows x columns: an image block, one plane per channel."""
+
+
+class SadValues:
+    """The criterion over a frame: every window that lies in both views.
+
+    Parameters
+    ----------
+    left, right : rows x columns x channels, `left` the reference view.
+    bits : of a channel.
+    """
+
+    def __init__(self, criterion: Sad, left: Image, right: Image, bits: int = BITS) -> None:
+        self._criterion = criterion
+        self.first_column = criterion.radius - criterion.dx
+        self._views: tuple[NDArray[Any], ...] = (left, right)
+        if criterion.source == "gradient":
+            self._views = tuple(gradient(luma(v), GRADIENT_CAP, bits)[:, :, None] for v in self._views)
+
+    def band(self, first: int, stop: int) -> Callable[[int], NDArray[np.int32]]:
+        """The function from a candidate d to the sums of rows ``first .. stop - 1``.
+
+        They are (stop - first) x (width - window + 1 - d): the first is that of column ``first_column + d``.
+        """
+        criterion = self._criterion
+        rows = slice(first - criterion.radius, stop + criterion.radius)
+        left, right = (_planes(view[rows]) for view in self._views)
+        width = left.shape[2]
+        return lambda d: sad(criterion, left[:, :, d:], right[:, :, : width - d])
+
+
+def _planes(block: NDArray[Any]) -> Planes:
+    return np.ascontiguousarray(block.transpose(2, 0, 1))
 
 
 def sad(criterion: Sad, left: Planes, right: Planes) -> NDArray[np.int32]:

@@ -165,7 +165,7 @@ def test_trace_agrees_with_the_map(reference, keys):
     for y in range(9):
         for x in range(22):
             trace = fixed_model.trace(left, right, config, x, y)
-            assert (trace.disparity, trace.code) == result.at(x, y)
+            assert (trace.disparity, trace.code, trace.confidence) == result.at(x, y)
             assert (len(trace.numerator) == 0) == (trace.code == Validity.BORDER)
 
 

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.golden.costs.criteria import evaluate
+from softdepth.golden.costs.criteria import FrameCriteria
 from softdepth.golden.costs.sad import absolute_difference, sad
 from softdepth.spec.config import Config, Sad
 
@@ -55,7 +55,8 @@ def test_criteria_look_at_their_own_place():
     )
     left, right = planes(20, 40, 2), planes(20, 40, 3)
     rows, columns = slice(3, 17), slice(8, 35)  # radius 3; from the shift -8 to 4 + radius 1
-    for criterion, values in zip(config.criteria, evaluate(config, left, right), strict=True):
+    criteria = FrameCriteria(config, left.transpose(1, 2, 0), right.transpose(1, 2, 0)).band(3, 17)(0)
+    for criterion, values in zip(config.criteria, criteria, strict=True):
         sums = opencv_sums(left, right, criterion.window)
         expected = np.roll(sums, -criterion.dx, axis=1)[rows, columns]
         np.testing.assert_array_equal(values, expected)

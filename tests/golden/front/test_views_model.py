@@ -27,15 +27,15 @@ def test_valid_is_everything_below_border():
 
 def test_differences_name_place_and_both_results():
     expected = make_map([[1, 2], [3, 4]])
-    got = make_map([[1, 9], [3, 4]], np.array([[0, 0], [2, 3]], np.uint8))
+    got = make_map([[1, 9], [3, 4]], np.array([[0, 0], [2, 7]], np.uint8))
     found = list(expected.differences(got))
     assert [str(d) for d in found] == [
         "y=0 x=1: expected 2 (FULL), got 9 (FULL)",
         "y=1 x=0: expected 3 (FULL), got 3 (BORDER)",
-        "y=1 x=1: expected 4 (FULL), got 4 (code 3)",
+        "y=1 x=1: expected 4 (FULL), got 4 (code 7)",
     ]
     y, x, want, have = found[0]
-    assert (y, x, want, have) == (0, 1, (2, 0), (9, 0))
+    assert (y, x, want, have) == (0, 1, (2, 0, None), (9, 0, None))
     assert list(expected.differences(expected)) == []
 
 

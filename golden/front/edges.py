@@ -1,0 +1,11 @@
+"""Pictures continued beyond their edges by the pixels there."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def replicated(plane: NDArray[Any], rows: int, columns: int) -> NDArray[Any]:
+    """`plane` with `rows` more above and below, and `columns` more left and right: those at its edge."""
+    return np.pad(plane, ((rows, rows), (columns, columns)), mode="edge")

@@ -1,0 +1,1 @@
+"""Checks, filling and filters of a frame's winners."""

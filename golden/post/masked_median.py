@@ -1,0 +1,52 @@
+"""The colour-masked median: among the pixels of a run that are like the centre, the lower median.
+
+Of the 2 * reach + 1 pixels of the row around a pixel, those count that lie in the image, are like it in the
+colour of the reference view (`likeness`), and are valid; of n of them rank ``(n - 1) // 2`` is taken.
+Invalid results stay as they are. Down the column it is the same, of the transposed picture.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softdepth.golden.front.gradient import BITS
+from softdepth.golden.front.likeness import alike_beside
+from softdepth.golden.front.pair import Image
+from softdepth.golden.post.rank import MISSING, lower_median
+
+BAND_ROWS = 64
+
+
+def along_row(
+    values: NDArray[np.uint16],
+    valid: NDArray[np.bool_],
+    image: Image,
+    reach: int,
+    like: int,
+    bits: int = BITS,
+) -> NDArray[np.uint16]:
+    """Rows x columns in and out; `image` is the reference view, rows x columns x channels of `bits` bits."""
+    height, width = values.shape
+    out = values.copy()
+    for y in range(0, height, BAND_ROWS):
+        rows = slice(y, min(y + BAND_ROWS, height))
+        around = np.pad(
+            np.where(valid[rows], values[rows], MISSING), ((0, 0), (reach, reach)), constant_values=MISSING
+        )
+        samples = np.empty((*values[rows].shape, 2 * reach + 1), np.uint16)
+        for k, offset in enumerate(range(-reach, reach + 1)):
+            counts = alike_beside(image[rows], offset, like, bits)
+            samples[:, :, k] = np.where(counts, around[:, k : k + width], MISSING)
+        np.copyto(out[rows], lower_median(samples), where=valid[rows])
+    return out
+
+
+def down_column(
+    values: NDArray[np.uint16],
+    valid: NDArray[np.bool_],
+    image: Image,
+    reach: int,
+    like: int,
+    bits: int = BITS,
+) -> NDArray[np.uint16]:
+    """As `along_row`, in the other direction."""
+    return along_row(values.T, valid.T, image.transpose(1, 0, 2), reach, like, bits).T

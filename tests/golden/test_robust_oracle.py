@@ -25,7 +25,8 @@ def oracle():
     if not folder:
         pytest.skip(f"{ORACLE} is unset: it names the folder of an independent robust.py")
     found = importlib.util.spec_from_file_location("robust_oracle", Path(folder) / "robust.py")
-    assert found and found.loader
+    assert found
+    assert found.loader
     module = importlib.util.module_from_spec(found)
     found.loader.exec_module(module)
     return module

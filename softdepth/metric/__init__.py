@@ -1,0 +1,1 @@
+"""Depth in metres: which results count, and the files that hold it."""

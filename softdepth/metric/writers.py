@@ -1,0 +1,96 @@
+"""Files of depth: PNG in millimetres, TIFF and PFM in metres, point clouds as PLY and ``.npz``."""
+
+import io
+from pathlib import Path
+
+import cv2
+import numpy as np
+from plyfile import PlyData, PlyElement
+
+from softdepth.files import write_atomically
+from softdepth.golden.data.writers import write_pfm
+from softdepth.metric.scene import Scene
+from softdepth.rig.geometry import Floats
+from softdepth.spec.errors import InputError
+
+MILLIMETRES = np.iinfo(np.uint16).max
+"""The farthest depth that a 16-bit PNG in millimetres holds: 65.535 m."""
+
+
+def write_depth_png(path: str | Path, depth: Floats) -> int:
+    """Write depth as 16-bit PNG in millimetres, 0 for none, as ROS and most depth cameras do.
+
+    Depths beyond 65.535 m do not fit: they become 0 as well, and their number is returned. A depth above 0
+    is at least 1 mm.
+    """
+    known = np.isfinite(depth)
+    millimetres = np.zeros(depth.shape)
+    millimetres[known] = np.maximum(np.rint(depth[known].astype(np.float64) * 1000), 1)
+    beyond = millimetres > MILLIMETRES
+    millimetres[beyond] = 0
+    write_atomically(path, _encoded(".png", millimetres.astype(np.uint16)))
+    return int(beyond.sum())
+
+
+def write_depth_tiff(path: str | Path, depth: Floats) -> None:
+    """Write depth as 32-bit float TIFF in metres, NaN for none."""
+    write_atomically(path, _encoded(".tiff", depth.astype(np.float32)))
+
+
+def write_depth_pfm(path: str | Path, depth: Floats) -> None:
+    """Write depth as PFM in metres; none is infinite, as in Middlebury's files."""
+    write_pfm(path, depth, np.isfinite(depth))
+
+
+def write_ply(path: str | Path, scene: Scene) -> int:
+    """Write the points with a depth as binary PLY and return their number.
+
+    Vertices have ``x``, ``y``, ``z`` in metres (left camera's optical frame), ``red``, ``green``, ``blue``
+    where the left image is known, and ``filled``, which is 1 where the depth was filled in.
+    """
+    points, colours, filled = scene.points()
+    fields = [(name, "<f4") for name in "xyz"]
+    fields += [
+        (name, "u1") for name in (*(("red", "green", "blue") if colours is not None else ()), "filled")
+    ]
+    vertices = np.empty(len(points), fields)
+    for k, name in enumerate("xyz"):
+        vertices[name] = points[:, k]
+    if colours is not None:
+        for k, name in enumerate(channels):
+            vertices[name] = colours[:, k]
+    vertices["filled"] = filled
+    comments = [f"left camera's optical frame {scene.geometry.frame_id}: x right, y down, z ahead; metres"]
+    file = io.BytesIO()
+    PlyData([PlyElement.describe(vertices, "vertex")], byte_order="<", comments=comments).write(file)
+    write_atomically(path, file.getvalue())
+    return len(points)
+
+
+def write_npz(path: str | Path, scene: Scene) -> None:
+    """Write depth, points, colours, what was filled and the geometry as a compressed ``.npz``."""
+    points, colours, filled = scene.points()
+    geometry = scene.geometry
+    arrays = {
+        "depth": scene.depth,
+        "points": points,
+        "filled": filled,
+        "focal": np.float64(geometry.focal),
+        "baseline": np.float64(geometry.baseline),
+        "doffs": np.float64(geometry.doffs),
+        "principal_point": np.array([geometry.cx, geometry.cy]),
+    }
+    if colours is not None:
+        arrays["colours"] = colours
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)
+    write_atomically(path, file.getvalue())
+
+
+def _encoded(suffix: str, image: np.ndarray) -> bytes:
+    done, data = cv2.imencode(suffix, image)
+    if not done:
+        raise InputError(
+            f"a {image.dtype} map of shape {image.shape} cannot be written as {suffix}", "give H x W"
+        )
+    return data.tobytes()

@@ -50,9 +50,8 @@ def write_ply(path: str | Path, scene: Scene) -> int:
     """
     points, colours, filled = scene.points()
     fields = [(name, "<f4") for name in "xyz"]
-    fields += [
-        (name, "u1") for name in (*(("red", "green", "blue") if colours is not None else ()), "filled")
-    ]
+    channels = () if colours is None else ("red", "green", "blue")
+    fields += [(name, "u1") for name in (*channels, "filled")]
     vertices = np.empty(len(points), fields)
     for k, name in enumerate("xyz"):
         vertices[name] = points[:, k]

@@ -60,7 +60,7 @@ def page(
     if confidence is not None:
         gray = np.repeat(confidence[..., None], 3, axis=2)
         panels.append(Panel("Confidence", _png(gray), "white: sure; black: filled in, or none"))
-    points, colours, _ = scene.points()
+    points, palette, _ = scene.points()
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("softdepth.view", "templates"),
         autoescape=True,

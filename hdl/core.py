@@ -1,6 +1,6 @@
 """The stereo core: pixel pairs in, disparities out."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.hdl import Cat, Module, Mux, ResetSignal, Signal
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
@@ -36,8 +36,12 @@ class StereoCore(wiring.Component):
     Throughput is one result every `Config.steps` clocks, without a pause between lines or frames.
     The pipeline itself never stalls: a pixel is admitted when a result has a place in the result
     FIFO, so back-pressure reaches the input and no further. The result of (x, y) follows the pixel
-    at (x + reach_right, y + reach_rows), of which it is the last to need, by `latency` clocks;
-    results of a frame's last rows follow by themselves.
+    at (x + reach_right, y + reach_rows), of which it is the last to need, by `latency` clocks where
+    that pixel finds the core idle, and by `full_rate_latency` where pixels are always on offer: those
+    wait in the queue for the steps of the pixels before them. Both are from the clock in which the
+    pixel is taken to that in which the result can be. Results of a frame's last rows follow by themselves.
+
+    During reset no pixel is taken: ``i.ready`` is low.
 
     Members
     -------
@@ -64,6 +68,7 @@ class StereoCore(wiring.Component):
         self._result_time = self._winner_time + self._sequence.latency
         promised = self._result_time + config.steps - 1 + FIFO_LATENCY
         self.latency = ItemQueue.latency + promised
+        self.full_rate_latency = self.latency + ItemQueue.places * (config.steps - 1)
         self.fifo_depth = -(-(promised + 2) // config.steps) + 3
         super().__init__(
             {
@@ -80,7 +85,11 @@ class StereoCore(wiring.Component):
 
         m.submodules.guard = guard = FrameGuard(config)
         m.submodules.sequencer = sequencer = Sequencer(config)
-        wiring.connect(m, wiring.flipped(self.i), guard.i)
+        m.d.comb += [
+            guard.i.valid.eq(self.i.valid),
+            guard.i.payload.eq(self.i.payload),
+            self.i.ready.eq(guard.i.ready & ~ResetSignal("sync")),
+        ]
         m.submodules.queue = queue = ItemQueue(item_layout(config))
         wiring.connect(m, guard.o, queue.i)
         wiring.connect(m, queue.o, sequencer.i)

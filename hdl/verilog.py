@@ -9,7 +9,7 @@ from amaranth.lib.wiring import Component
 
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.text.memories import collisions_waived, ready_to_simulate, without_zeros
-from softdepth.hdl.text.rtlil import CLOCK, RESET, port_names, to_rtlil
+from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of, to_rtlil
 from softdepth.hdl.text.share import share
 from softdepth.hdl.text.words import plain_names
 from softdepth.spec.config import Config
@@ -51,7 +51,7 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
     component = StereoCore(design) if isinstance(design, Config) else design
     rtlil = without_zeros(share(to_rtlil(component, name), smallest=math.inf))
     text = plain_names(_written(rtlil))
-    order = [CLOCK, RESET, *port_names(component)]
+    order = [CLOCK, RESET, *(port.name for port in ports_of(component))]
     text = re.sub(
         rf"^module {name}\((.*?)\);$",
         lambda found: f"module {name}({', '.join(sorted(found[1].split(', '), key=order.index))});",

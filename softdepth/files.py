@@ -68,6 +68,12 @@ def check_writable(path: str | Path) -> None:
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
 
+def is_replaced(path: str | Path) -> bool:
+    """Whether `write_atomically` puts a regular file in place, beside which others can lie, or writes through."""
+    with _writing(Path(path)):
+        return _replaceable(Path(path)) is not None
+
+
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
     """Tell what the system says about writing to `path` as a user reads it."""

@@ -22,6 +22,7 @@ class ItemQueue(wiring.Component):
     """
 
     latency = 1
+    places = 2
 
     def __init__(self, shape: ShapeLike) -> None:
         self._shape = shape
@@ -29,8 +30,8 @@ class ItemQueue(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(2))
-        holds = Array(Signal(name=f"holds_{k}") for k in range(2))
+        places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(self.places))
+        holds = Array(Signal(name=f"holds_{k}") for k in range(self.places))
         newest, oldest = Signal(), Signal()  # the place that is filled next, and the one that is emptied next
         m.d.comb += [
             self.i.ready.eq(~holds[newest]),

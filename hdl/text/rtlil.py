@@ -3,11 +3,12 @@
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 from amaranth.back import rtlil
-from amaranth.hdl import Value
+from amaranth.hdl import Value, ValueLike
 from amaranth.hdl._ir import PortDirection  # it has no public name
-from amaranth.lib.wiring import Component, In
+from amaranth.lib.wiring import Component, Flow, In, Out
 
 CLOCK, RESET = "clk", "rst"
 """Ports that every component has beside its own: those of its only clock domain."""
@@ -20,23 +21,33 @@ def to_rtlil(component: Component, name: str) -> str:
     ``_``: ``i_payload``, ``i_valid``, ... Names with ``__`` are not legal in VHDL.
     """
     with _undisturbed():
-        return rtlil.convert(component, name=name, ports=_ports(component), emit_src=False)
+        return rtlil.convert(component, name=name, ports=_given(ports_of(component)), emit_src=False)
 
 
-def port_names(component: Component) -> list[str]:
+@dataclass(frozen=True)
+class Port:
+    """One of a component's own ports: its name in text, its way as the component sees it, its value."""
+
+    name: str
+    flow: Flow
+    value: ValueLike
+
+
+def ports_of(component: Component) -> list[Port]:
     """A component's own ports, in its order."""
-    return list(_ports(component))
-
-
-def _ports(component: Component) -> dict[str, tuple[Value, PortDirection]]:
-    ports = {}
+    ports: dict[str, Port] = {}
     for path, member, value in component.signature.flatten(component):
         name = "_".join(map(str, path))
         if name in (*ports, CLOCK, RESET):
             raise ValueError(f"two ports of {type(component).__name__} would be called '{name}'")
-        direction = PortDirection.Input if member.flow is In else PortDirection.Output
-        ports[name] = (Value.cast(value), direction)
-    return ports
+        ports[name] = Port(name, member.flow, value)
+    return list(ports.values())
+
+
+def _given(ports: list[Port]) -> dict[str, tuple[Value, PortDirection]]:
+    """The ports as Amaranth wants to be given them."""
+    ways = {In: PortDirection.Input, Out: PortDirection.Output}
+    return {port.name: (Value.cast(port.value), ways[port.flow]) for port in ports}
 
 
 @contextmanager

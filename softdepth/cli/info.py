@@ -46,7 +46,9 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     from softdepth.hdl.signatures import PixelPair, result_layout
 
     with _asked():
-        latency = StereoCore(config).latency
+        core = StereoCore(config)
+        latency, full_rate_latency = core.latency, core.full_rate_latency
+        del core  # it goes while Amaranth is silent
     line_bits, row_bits = memory_bits(config)
     cycles = width * height * config.steps
     return {
@@ -57,6 +59,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "input payload": f"{PixelPair.size} bits",
         "output payload": f"{result_layout(config).size} bits",
         "latency": f"{latency} clocks after the last pixel of its window",
+        "latency at full rate": f"{full_rate_latency} clocks where pixels are always on offer",
         "line buffer": f"{line_bits} bits, {config.column_rows - 1} lines of {config.max_width} pixel pairs",
         "row memories": f"{row_bits} bits, {config.stored_rows} rows of {config.places} costs in each lane",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",

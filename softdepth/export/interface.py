@@ -1,0 +1,119 @@
+"""What someone who builds a core in has to know: ports, fields, codes, time, all from the core itself."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from amaranth.hdl import Value
+from amaranth.lib import data
+from amaranth.lib.wiring import In
+
+from softdepth.hdl.core import StereoCore
+from softdepth.hdl.signatures import COUNTER_BITS
+from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of
+from softdepth.hdl.text.rtlil import Port as Source
+from softdepth.spec.config import CHANNEL_BITS, Config
+from softdepth.spec.validity import Validity
+
+COLOURS = {1: ("gray",), 3: ("red", "green", "blue")}
+"""A pixel's channels by their number, lowest bits first."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """Bits of a packed port: `width` from bit `low` on. Parts follow the field that holds them."""
+
+    name: str
+    low: int
+    width: int
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Port:
+    """A port of the exported module; `direction` is the module's: ``input`` or ``output``."""
+
+    name: str
+    direction: str
+    width: int
+    meaning: str
+    fields: tuple[Field, ...] = ()
+
+
+@dataclass(frozen=True)
+class Interface:
+    """An exported core from outside.
+
+    Members
+    -------
+    name : of its module.
+    ports : in the module's order.
+    codes : validity codes that can occur.
+    latency, full_rate_latency : as `StereoCore` states them.
+    """
+
+    name: str
+    config: Config
+    ports: tuple[Port, ...]
+    codes: tuple[Validity, ...]
+    latency: int
+    full_rate_latency: int
+
+
+def interface_of(core: StereoCore, config: Config, name: str) -> Interface:
+    """Describe `core`, which was made of `config`, as the module `name`."""
+    ports = [Port(each, "input", 1, _MEANINGS[each]) for each in (CLOCK, RESET)]
+    ports += map(_port, ports_of(core))
+    measured = (Validity.FULL, Validity.PARTIAL, Validity.BORDER)
+    few = core.o.payload.shape()["code"].width == max(measured).bit_length()
+    return Interface(
+        name, config, tuple(ports), measured if few else tuple(Validity), core.latency, core.full_rate_latency
+    )
+
+
+_MEANINGS = {
+    CLOCK: "clock; all else is sampled at, and changes after, its rising edge",
+    RESET: "synchronous reset, active high; one clock of it is enough",
+    "i_payload": "a pair of pixels, held while i_valid waits for i_ready",
+    "i_valid": "a pair is on offer; raise it without waiting for i_ready",
+    "i_ready": "the pair is taken at this clock edge; may wait for i_valid, low during reset",
+    "o_payload": "a result, held while o_valid waits for o_ready",
+    "o_valid": "a result is on offer; never waits for o_ready",
+    "o_ready": "the result is taken at this clock edge; 1 if you can always take one",
+    "status": "counters of broken input since reset",
+    "i_payload.left": "pixel of the left image",
+    "i_payload.right": "pixel of the right image, at the same column and row",
+    "i_payload.sof": "start of frame: 1 with a frame's first pixel",
+    "i_payload.eol": "end of line: 1 with a line's last pixel",
+    "i_payload.eof": "end of frame: 1 with a frame's last pixel; 0 for ever if the source cannot tell",
+    "o_payload.disparity": "by how many pixels the match lies further left in the right image",
+    "o_payload.code": "why this is a measurement, or is none: see the codes below",
+    "o_payload.sof": "start of frame: 1 with a frame's first result",
+    "o_payload.eol": "end of line: 1 with a line's last result",
+    "o_payload.eof": "end of frame: 1 with a frame's last result",
+    "o_payload.damaged": "the frame's input was broken before this result or at it",
+    "status.short_lines": "lines that were too short, and were padded",
+    "status.long_lines": "lines that were too long, and were cut",
+    "status.early_starts": "starts of a frame before the end of the one before",
+    "status.missing_starts": "times that pixels outside any frame were dropped",
+}
+"""Of every port and field. What is not listed cannot be exported: a stranger would not know what it is."""
+
+
+def _port(source: Source) -> Port:
+    value = source.value
+    fields = tuple(_fields(source.name, value.shape())) if isinstance(value, data.View) else ()
+    direction = "input" if source.flow is In else "output"
+    return Port(source.name, direction, len(Value.cast(value)), _MEANINGS[source.name], fields)
+
+
+def _fields(port: str, layout: data.Layout) -> Iterator[Field]:
+    for name, field in layout:
+        meaning = _MEANINGS[f"{port}.{name}"]
+        if port == "status":
+            meaning += f"; stays at {2**COUNTER_BITS - 1}"
+        yield Field(str(name), field.offset, field.width, meaning)
+        if port == "i_payload" and name in ("left", "right"):
+            colours = COLOURS[field.width // CHANNEL_BITS]
+            for k, colour in enumerate(colours if len(colours) > 1 else ()):
+                low = field.offset + k * CHANNEL_BITS
+                yield Field(f"{name}_{colour}", low, CHANNEL_BITS, f"its {colour}")

@@ -69,7 +69,7 @@ def check_writable(path: str | Path) -> None:
 
 
 def is_replaced(path: str | Path) -> bool:
-    """Whether `write_atomically` puts a regular file in place, beside which others can lie, or writes through."""
+    """Whether `write_atomically` puts a regular file there, beside which others can lie."""
     with _writing(Path(path)):
         return _replaceable(Path(path)) is not None
 

@@ -9,7 +9,6 @@ import pytest
 from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
-from softdepth.cli.export import ports
 from softdepth.hdl.boards import BoardTop
 from softdepth.hdl.boards.lamps import BLINKS_PER_SECOND, Lamps
 from softdepth.hdl.boards.plls.ecp5 import ecp5_divisors
@@ -41,9 +40,9 @@ def pins(path: Path) -> set[str]:
 def test_ports_are_the_pins_of_the_constraint_file(project, config, board: Board):
     verilog = to_verilog(BoardTop(board, config), name="top")
     found = set()
-    for way, bits, name in (line.split() for line in ports(verilog, "top")):
+    for name, (way, bits) in ports(verilog, "top").items():
         assert way == ("input" if name in ("clk", "rx", "button") else "output")
-        found |= {f"{name}[{k}]" for k in range(int(bits))} if name == "led" else {name}
+        found |= {f"{name}[{k}]" for k in range(bits)} if name == "led" else {name}
     assert found == pins(project / "constraints" / board.constraints)
     assert PLL[board.family] in verilog
 

@@ -13,13 +13,7 @@ from softdepth.hdl.text.words import PLAIN, plain_names
 from softdepth.hdl.verilog import TOP, to_verilog
 from softdepth.spec.config import OPERATORS, Config
 from tests.support.simulation import config, sad
-
-
-def ports(verilog: str, top: str) -> dict[str, tuple[str, int]]:
-    """Direction and width of the top module's ports."""
-    (body,) = re.findall(rf"^module {top}\(.*?^endmodule", verilog, re.DOTALL | re.MULTILINE)
-    found = re.findall(r"^  (input|output) (?:\[(\d+):0\] )?(\w+) ?;", body, re.MULTILINE)
-    return {name: (direction, int(high or 0) + 1) for direction, high, name in found}
+from tests.support.verilog import ports
 
 
 @pytest.mark.parametrize(("disparities", "bits"), [(4, 2), (5, 3)])
@@ -146,6 +140,7 @@ def test_equal_lanes_are_written_once() -> None:
     assert len(re.findall(r"^  \w+_lane_\d+ lane_\d+ ", text, re.MULTILINE)) == 8
 
 
+@pytest.mark.filterwarnings("ignore::amaranth.hdl.UnusedElaboratable")
 def test_ports_that_would_share_a_name_are_refused() -> None:
     class Twice(wiring.Component):
         a_b: In(1)

@@ -11,7 +11,7 @@ from amaranth.hdl._ir import PortDirection  # it has no public name
 from amaranth.lib.wiring import Component, Flow, In, Out
 
 CLOCK, RESET = "clk", "rst"
-"""Ports that every component has beside its own: those of its only clock domain."""
+"""Ports that a component has beside its own: those of the clock domain that it does not make itself."""
 
 
 def to_rtlil(component: Component, name: str) -> str:
@@ -38,7 +38,7 @@ def ports_of(component: Component) -> list[Port]:
     ports: dict[str, Port] = {}
     for path, member, value in component.signature.flatten(component):
         name = "_".join(map(str, path))
-        if name in (*ports, CLOCK, RESET):
+        if name in ports:
             raise ValueError(f"two ports of {type(component).__name__} would be called '{name}'")
         ports[name] = Port(name, member.flow, value)
     return list(ports.values())

@@ -20,6 +20,7 @@ from softdepth.spec.boards import BOARDS, Board
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
 from tests.support.simulation import simulate
+from tests.support.verilog import ports
 
 MHZ = 1_000_000
 PINS = re.compile(r'^(?:LOCATE COMP "([^"]+)" SITE|set_io (\S+) |IO_LOC "([^"]+)")', re.MULTILINE)

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
+import numpy as np
 from pydantic import BaseModel
 from rich.table import Table
 
@@ -25,7 +26,15 @@ if TYPE_CHECKING:
 
 SCHEMA = 1
 ENGINES: tuple[Engine, ...] = get_args(Engine)
-FILES = ("disparity.png", "disparity.pfm", "colour.png", "overview.png", "error.png", "config.toml")
+FILES = (
+    "disparity.png",
+    "disparity.pfm",
+    "colour.png",
+    "code.png",
+    "overview.png",
+    "error.png",
+    "config.toml",
+)
 """Everything that a run may write beside ``report.json``."""
 
 
@@ -131,15 +140,20 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     from softdepth.golden.score import pictures
 
     result = measurement.result
-    disparity, valid, maximum = result.disparity, result.valid, config.disparities - 1
+    disparity, code = result.disparity, result.code
+    valid = np.isin(code, pictures.RESULTS)
+    low, high = pictures.colour_range(disparity, valid)
     writers.write_disparity_png(folder / "disparity.png", disparity, valid)
     writers.write_pfm(folder / "disparity.pfm", disparity, valid)
-    writers.write_picture(folder / "colour.png", pictures.colour(disparity, valid, maximum))
+    coloured = pictures.colour(disparity, valid, high, minimum=low, code=code)
+    writers.write_picture(folder / "colour.png", coloured)
+    write_atomically(folder / "code.png", pictures.code_picture(code))
     shown = pair.as_format("rgb8")
-    overview = pictures.triptych(shown.left, shown.right, disparity, valid, maximum)
+    overview = pictures.triptych(shown.left, shown.right, disparity, valid, high, minimum=low, code=code)
     write_atomically(folder / "overview.png", overview)
     if pair.truth is not None:
-        writers.write_picture(folder / "error.png", pictures.error_picture(disparity, pair.truth, valid))
+        errors = pictures.error_picture(disparity, pair.truth, valid)
+        write_atomically(folder / "error.png", pictures.error_figure(errors))
     config.save(folder / "config.toml")
     (folder / "report.json").write_text(json.dumps(report.model_dump(), indent=2) + "\n")
 

@@ -14,7 +14,15 @@ from softdepth.golden.score.metrics import evaluate
 from softdepth.spec.config import Config
 
 SMALL = ("--disparities", 16, "--lanes", 4)
-FILES = {"disparity.png", "disparity.pfm", "colour.png", "overview.png", "config.toml", "report.json"}
+FILES = {
+    "disparity.png",
+    "disparity.pfm",
+    "colour.png",
+    "code.png",
+    "overview.png",
+    "config.toml",
+    "report.json",
+}
 
 
 def config(**changes: object) -> Config:

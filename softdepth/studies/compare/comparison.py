@@ -58,9 +58,7 @@ def write(
 
     shown = pair.as_format("rgb8")
     reference = shown.right if config.reference == "right" else shown.left
-    picture = pictures.differences(
-        reference, measurement.result, measurement.maps["float"], config.disparities - 1
-    )
+    picture = pictures.differences(reference, measurement.result, measurement.maps["float"])
     write_atomically(folder / "differences.png", picture)
     marked = (config.membership_bits, tables.common_label(found))
     bad1 = found.metrics["float"].bad1

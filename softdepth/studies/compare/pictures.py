@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.score.pictures import INCHES, NO_RESULT, colour, side_by_side
+from softdepth.golden.score.pictures import INCHES, NO_RESULT, colour, colour_range, side_by_side
 from softdepth.studies.compare.sweep import Point, Sweep
 
 Rgb = tuple[int, int, int]
@@ -52,16 +52,17 @@ def mark_differences(reference: np.ndarray, first: DisparityMap, second: Dispari
     return picture
 
 
-def differences(reference: np.ndarray, result: DisparityMap, paper: DisparityMap, maximum: float) -> bytes:
+def differences(reference: np.ndarray, result: DisparityMap, paper: DisparityMap) -> bytes:
     """Where the result departs from the float model, beside the result itself: a PNG file's bytes."""
+    low, high = colour_range(result.disparity, result.valid)
     panels = (
         ("where hardware and float model differ", mark_differences(reference, result, paper)),
-        ("hardware's disparity", colour(result.disparity, result.valid, maximum)),
+        ("hardware's disparity", colour(result.disparity, result.valid, high, minimum=low, code=result.code)),
     )
     width = reference.shape[1]
     zoom = max(1, round(PANEL_PIXELS / width))  # a whole one: single pixels stay sharp
     dpi = round(zoom * width / INCHES)
-    return side_by_side(panels, maximum=maximum, legend=DIFFERENCE_COLOURS, dpi=dpi)
+    return side_by_side(panels, maximum=high, minimum=low, legend=DIFFERENCE_COLOURS, dpi=dpi)
 
 
 def sweep_plot(found: Sweep, title: str, float_bad1: float | None, marked: tuple[int, int | None]) -> bytes:

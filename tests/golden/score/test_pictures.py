@@ -1,19 +1,27 @@
 """Pictures: colours mean what the legend says, and the files are PNGs of the promised layout."""
 
+import io
+
 import cv2
 import numpy as np
 import pytest
+from PIL import Image
 
 from softdepth.golden.data.truth import from_disparity
 from softdepth.golden.score.pictures import (
+    CODE_COLOURS,
     ERROR_COLOURS,
     NO_RESULT,
+    code_picture,
     colour,
+    colour_range,
+    error_figure,
     error_picture,
     side_by_side,
     triptych,
 )
 from softdepth.spec.errors import InputError
+from softdepth.spec.validity import Validity
 
 
 def test_near_is_warm_and_far_is_cold() -> None:
@@ -26,11 +34,89 @@ def test_near_is_warm_and_far_is_cold() -> None:
 
 
 def test_colours_are_the_maps_own() -> None:
-    """OpenCV has the same map in a table of its own."""
-    shades = np.arange(256, dtype=np.uint8)[np.newaxis]
+    """OpenCV has the same map in a table of its own; its darkest tenth is left out."""
+    shades = np.rint(np.linspace(25.5, 255, 256)).astype(np.uint8)[np.newaxis]
     expected = cv2.applyColorMap(shades, cv2.COLORMAP_TURBO)[:, :, ::-1]
     actual = colour(np.arange(256)[np.newaxis] + 0.5, np.ones((1, 256), bool), 256)
-    assert np.abs(actual.astype(int) - expected).max() <= 2
+    assert np.abs(actual.astype(int) - expected).max() <= 5
+
+
+def luminance(rgb: np.ndarray | tuple[int, int, int]) -> float:
+    return float(np.asarray(rgb, float) @ (0.2126, 0.7152, 0.0722))
+
+
+def test_disparity_0_is_no_darkness() -> None:
+    """At a glance: bright blue against near black, wherever the scale begins."""
+    for minimum in (0, -8):
+        zero, nothing = colour(np.array([[minimum, 9]]), np.array([[True, False]]), 64, minimum=minimum)[0]
+        assert tuple(nothing) == NO_RESULT
+        assert luminance(zero) > luminance(nothing) + 50
+        assert zero[2] > 150
+
+
+def test_no_disparity_has_the_look_of_another_code() -> None:
+    """Full, partial and filled results of any disparity are far from each other and from no result."""
+    ramp = np.linspace(0, 64, 65)[np.newaxis]
+    valid = np.ones(ramp.shape, bool)
+    full, partial, filled = (
+        colour(ramp, valid, 64, code=np.full(ramp.shape, code))[0].astype(int)
+        for code in (Validity.FULL, Validity.PARTIAL, Validity.FILLED)
+    )
+    assert np.abs(full - partial).max(1).min() > 60
+    assert np.abs(full - filled).max(1).min() > 30
+    assert np.abs(partial - filled).max(1).min() > 40
+    for shades in (partial, filled):
+        assert np.abs(shades - NO_RESULT).max(1).min() > 80
+
+
+def test_range_fits_what_is_there() -> None:
+    disparity = np.full((40, 50), 20.0)
+    disparity[:, 25:] = 33.5
+    valid = np.ones(disparity.shape, bool)
+    disparity[0, 0], disparity[0, 1] = 0, 63  # a few wrong ones
+    disparity[1, :2] = np.nan, 99
+    valid[1, 1] = False
+    assert colour_range(disparity, valid) == (20, 34)
+    assert colour_range(-disparity, valid) == (-34, -20)
+    assert colour_range(np.full((3, 3), 7), np.ones((3, 3), bool)) == (7, 8)
+    assert colour_range(disparity, np.zeros_like(valid)) == (0, 1)
+
+
+def test_codes_can_be_read_back_and_seen() -> None:
+    code = np.arange(7, dtype=np.uint8)[np.newaxis].repeat(3, 0)
+    image = Image.open(io.BytesIO(code_picture(code)))
+    assert image.mode == "P"
+    np.testing.assert_array_equal(np.asarray(image), code)
+    np.testing.assert_array_equal(np.asarray(image.convert("RGB"))[0], [CODE_COLOURS[c] for c in Validity])
+    assert set(CODE_COLOURS) == set(Validity)
+    assert len(set(CODE_COLOURS.values())) == len(Validity)
+
+
+def test_error_figure_has_its_legend() -> None:
+    picture = np.full((60, 90, 3), ERROR_COLOURS["within 1 px"], np.uint8)
+    picture[30, 45] = ERROR_COLOURS["over 2 px"]
+    image = decode(error_figure(picture))
+    zoom = 10
+    assert (np.abs(image - ERROR_COLOURS["over 2 px"]).max(2) <= 2).sum() > zoom**2, "single pixels are seen"
+    below = image[-image.shape[0] // 10 :]
+    for name, shade in ERROR_COLOURS.items():
+        assert (np.abs(below - shade).max(2) <= 3).any(), name
+
+
+def test_triptych_tells_the_shades_that_occur() -> None:
+    image = np.zeros((60, 80, 3), np.uint8)
+    disparity, code = np.full((60, 80), 9), np.zeros((60, 80), np.uint8)
+    valid = np.ones(code.shape, bool)
+    plain = decode(triptych(image, image, disparity, valid, 64, code=code))
+    code[:, :20] = Validity.PARTIAL
+    told = decode(triptych(image, image, disparity, valid, 64, code=code))
+    assert told.shape[0] > plain.shape[0]
+
+
+@pytest.mark.parametrize(("low", "high"), [(3, 3), (5, 3)])
+def test_range_must_not_be_empty(low: int, high: int) -> None:
+    with pytest.raises(InputError, match="the minimum"):
+        colour(np.zeros((1, 1)), np.ones((1, 1), bool), high, minimum=low)
 
 
 def test_no_result_has_a_colour_of_its_own() -> None:

@@ -70,8 +70,8 @@ def run_frames(
     stalls : pauses at both ends; none by default.
     gap : idle clocks between frames.
     progress : called with the number of results so far.
-    eof : whether the source marks a frame's last pixel. Without it the core learns the height from the
-        frame before, so that there must be two at least, of one height.
+    eof : whether the source marks a frame's last pixel. Without it the core learns the height from two
+        frames, and the last one needs it: there must be three at least, of one height.
 
     Raises `InputError` for pairs that the core cannot take, before anything is built, and `ToolError`
     for a missing tool, a failed build, or a core that does not give every result in good order.
@@ -120,10 +120,10 @@ def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
                 "change max_height, or resize the images",
             )
     heights = {left.shape[0] for left, _ in pairs}
-    if not eof and (len(pairs) < 2 or len(heights) > 1):
+    if not eof and (len(pairs) < 3 or len(heights) > 1):
         raise InputError(
             f"without eof, the last of {len(pairs)} pairs of heights {sorted(heights)} has no certain end",
-            "give two pairs of one height, or more",
+            "give three pairs of one height, or more",
         )
 
 

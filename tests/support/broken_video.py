@@ -22,11 +22,16 @@ def good_frame(width: int, height: int, *, eof: bool) -> Stream:
     ]
 
 
-def broken_frame(random: Random, c: Config, *, eof: bool) -> Stream:
-    """A frame with one fault or several, or none that can be seen: it may be cut at a line's end."""
+def some_size(random: Random, c: Config) -> tuple[int, int]:
+    """A width and a height that the core takes, the extremes among them."""
     width = random.choice((c.min_width, c.min_width + 1, c.max_width - 1, c.max_width))
-    height = random.choice((1, 2, 2, 3, 3, 4, c.max_height - 1, c.max_height))
-    match random.randrange(12):
+    return width, random.choice((1, 2, 2, 3, 3, 4, c.max_height - 1, c.max_height))
+
+
+def unfit_frame(random: Random, c: Config, *, eof: bool) -> Stream:
+    """A frame of a size that the core does not take, or noise."""
+    width, height = some_size(random, c)
+    match random.randrange(4):
         case 0:
             width = random.randrange(1, c.min_width)
         case 1:
@@ -34,32 +39,54 @@ def broken_frame(random: Random, c: Config, *, eof: bool) -> Stream:
         case 2:
             height = c.max_height + random.randrange(1, 4)
         case 3:
-            return [
-                Sent(0, *(random.random() < likely for likely in (0.1, 0.3, 0.1 if eof else 0)))
-                for _ in range(random.randrange(30))
-            ]
-    frame = good_frame(width, height, eof=eof)
-    for _ in range(random.choice((1, 1, 1, 2, 3))):
-        at = random.randrange(len(frame))
-        match random.randrange(9):
-            case 0 | 1:
-                frame = frame[: max(at - at % width, 1)]  # cut at a line's end
-            case 2:
-                frame = frame[: at + 1]
-            case 3:
-                del frame[at : at + random.randrange(1, max(width, 2))]
-            case 4:
-                frame[at:at] = [Sent(0)] * random.randrange(1, max(width, 2))
-            case 5:
-                frame[0] = frame[0]._replace(sof=False)
-            case 6:
-                frame[at] = frame[at]._replace(sof=True)
-            case 7:
-                frame[at] = frame[at]._replace(eol=not frame[at].eol)
-            case 8:
-                frame[-1] = frame[-1]._replace(eof=False)
-        if not frame:
-            break
+            likely = (0.1, 0.3, 0.1 if eof else 0)
+            return [Sent(0, *(random.random() < p for p in likely)) for _ in range(random.randrange(30))]
+    return good_frame(width, height, eof=eof)
+
+
+def broken(random: Random, frame: Stream, width: int) -> Stream:
+    """The frame with one fault, which need not be seen: it may be cut at a line's end."""
+    frame = list(frame)
+    at = random.randrange(len(frame))
+    match random.randrange(10):
+        case 0 | 1:
+            return frame[: max(at - at % width, 1)]  # cut at a line's end, or behind the first pixel
+        case 2:
+            return frame[: at + 1]
+        case 3:
+            return frame[:at] + frame[at + random.randrange(1, width) :]
+        case 4:
+            return frame[:at] + [Sent(0)] * random.randrange(1, width) + frame[at:]
+        case 5:
+            frame[0] = frame[0]._replace(sof=False)
+        case 6:
+            frame[at] = frame[at]._replace(sof=True)
+        case 7:
+            frame[at] = frame[at]._replace(eol=not frame[at].eol)
+        case 8:
+            frame[-1] = frame[-1]._replace(eof=False)
+        case 9:
+            frame[-1:-1] = [Sent(0)] * random.randrange(1, width)  # its last line is too long
+    return frame
+
+
+def some_frames(random: Random, c: Config, usual: tuple[int, int], *, eof: bool) -> Stream:
+    """One of the things that sources do, often with frames of their usual size."""
+    size = usual if random.random() < 0.6 else some_size(random, c)
+    frame = good_frame(*size, eof=eof)
+    match random.randrange(6):
+        case 0:
+            return frame * random.randrange(1, 4)
+        case 1:
+            return good_frame(size[0], random.randrange(1, c.max_height + 1), eof=eof) * random.randrange(
+                1, 4
+            )
+        case 2:
+            return unfit_frame(random, c, eof=eof)
+        case 3:
+            return broken(random, frame, size[0]) * random.randrange(1, 4)
+    for _ in range(random.choice((1, 1, 2, 3))):
+        frame = broken(random, frame, size[0]) or frame
     return frame
 
 
@@ -75,8 +102,12 @@ def broken_video(seed: int, c: Config) -> tuple[Stream, int]:
     """
     random = Random(seed)
     eof = seed % 2 == 0
-    stream = [pixel for _ in range(random.randrange(1, 6)) for pixel in broken_frame(random, c, eof=eof)]
-    size = random.randrange(c.min_width, c.max_width + 1), random.choice((1, 2, 2, 3, 3, 4, c.max_height))
-    good = good_frame(*size, eof=eof)
-    ending = good if eof else [*good * 3, *good[: size[0]]]
+    usual = random.randrange(c.min_width, c.max_width + 1), random.choice((1, 2, 2, 3, 3, 4, c.max_height))
+    stream: Stream = []
+    if random.random() < 0.3:
+        stream += good_frame(*usual, eof=eof) * 2
+    for _ in range(random.randrange(1, 5)):
+        stream += some_frames(random, c, usual, eof=eof)
+    good = good_frame(*usual, eof=eof)
+    ending = good if eof else [*good * 3, *good[: usual[0]]]
     return numbered([*stream, *ending]), len(stream)

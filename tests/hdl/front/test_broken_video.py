@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from functools import cache
+from importlib import resources
 from random import Random
 from typing import Any
 
 import pytest
+from amaranth.hdl import C
 
 from softdepth.hdl.front.frame_guard import FrameGuard
 from tests.support.broken_video import broken_video
@@ -70,6 +72,95 @@ def first_difference(dut: Any, name: str, seeds: range) -> str:
     return found[0] if found else ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CONFIGS)
 def test_what_leaves_is_what_the_table_says(name: str) -> None:
-    assert not first_difference(FrameGuard(CONFIGS[name]), name, range(150))
+    runs = range(400 if name == "3x3" else 80)  # of three to a dozen frames each
+    assert not first_difference(FrameGuard(CONFIGS[name]), name, runs)
+
+
+# Faults put into the gateware's text: a line of it, and what stands there instead.
+FRAME_GUARD, HEIGHT_LEARNER = "frame_guard", "height_learner"
+MUTATIONS: dict[str, tuple[str, str, str]] = {
+    "one frame teaches a height": (HEIGHT_LEARNER, "m.If(whole & agrees):", "m.If(whole):"),
+    "two lower frames do": (HEIGHT_LEARNER, "whole & agrees & (streak == 2)", "whole & agrees"),
+    "heights need not agree": (HEIGHT_LEARNER, "(streak != 0) & (row == seen)", "(streak != 0)"),
+    "broken frames are passed over": (HEIGHT_LEARNER, "m.d.sync += streak.eq(0)", "pass"),
+    "a height is never forgotten": (HEIGHT_LEARNER, "overran & (overran_before | ~at_last)", "C(0)"),
+    "a multiple is forgiven each time": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "~at_last"),
+    "a multiple is never forgiven": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "C(1)"),
+    "marks are forgotten": (HEIGHT_LEARNER, 'm.next = "MARKS"', "pass"),
+    "the last row comes late": (
+        HEIGHT_LEARNER,
+        "row.eq(Mux(frame, 0, row + 1))",
+        "row.eq(Mux(frame, 0, row + 1 - at_last))",
+    ),
+    "one line too many fits": (HEIGHT_LEARNER, "max_height - 1)", "max_height)"),
+    "broken frames are whole": (
+        FRAME_GUARD,
+        "learner.whole.eq(starts & ~damaged)",
+        "learner.whole.eq(starts)",
+    ),
+    "what is too tall is not marked": (
+        FRAME_GUARD,
+        "m.d.comb += [ends.eq(1), found.eq(1)]",
+        "m.d.comb += ends.eq(1)",
+    ),
+    "no frame ends early": (FRAME_GUARD, "found.eq(learner.knows_end)", "found.eq(0)"),
+    "damage is forgotten with its line": (FRAME_GUARD, "item.damaged & ~closes", "item.damaged & ~line_ends"),
+    "damage outlives its frame": (FRAME_GUARD, "item.damaged & ~closes", "item.damaged"),
+    "cut lines are not marked": (FRAME_GUARD, "damaged | found | short | cut", "damaged | found | short"),
+    "short lines are not marked": (FRAME_GUARD, "damaged | found | short | cut", "damaged | found | cut"),
+    "short lines are not counted": (
+        FRAME_GUARD,
+        "counters.short_lines.eq(short)",
+        "counters.short_lines.eq(0)",
+    ),
+    "each dropped line is counted": (FRAME_GUARD, 'm.next = "DROP"', "pass"),
+    "the rest of a last line counts": (FRAME_GUARD, 'm.next = "SKIP_LAST"', "pass"),
+    "an end in the rest is missed": (FRAME_GUARD, 'm.next = "END"', "pass"),
+    "starts in the rest do not count": (
+        FRAME_GUARD,
+        "with m.If(taken):\n                        m.d.comb += counters.early_starts.eq(1)",
+        "with m.If(taken):",
+    ),
+    "the end is lost in filling": (FRAME_GUARD, "Mux(fills, end_waits, pair.eof)", "pair.eof"),
+    "a start inside a line does not end it": (FRAME_GUARD, "pair.eof | (within_line & starts)", "pair.eof"),
+    "the next frame fills the line": (FRAME_GUARD, "~own & ~(within_line & starts)", "~own"),
+    "narrow frames stay narrow": (FRAME_GUARD, "config.min_width - 1", "config.min_width - 2"),
+    "the width is a column late": (
+        FRAME_GUARD,
+        "is_width = following == last_column",
+        "is_width = x == last_column",
+    ),
+    "the width outlives its frame": (
+        FRAME_GUARD,
+        "m.d.sync += first_line.eq(1)",
+        "m.d.sync += first_line.eq(last_column == config.max_width - 1)",
+    ),
+}
+
+
+def mutated(module: str, old: str, new: str) -> type:
+    """FrameGuard with a fault in one of its two files."""
+    namespaces: dict[str, dict[str, Any]] = {}
+    for name in (HEIGHT_LEARNER, FRAME_GUARD):
+        text = resources.files("softdepth.hdl.front").joinpath(f"{name}.py").read_text()
+        if name == module:
+            assert old in text, f"'{old}' is no longer in {name}.py"
+            text = text.replace(old, new)
+        namespaces[name] = {"__name__": f"mutated_{name}", "C": C}
+        exec(compile(text, name, "exec"), namespaces[name])
+    namespaces[FRAME_GUARD]["HeightLearner"] = namespaces[HEIGHT_LEARNER]["HeightLearner"]
+    return namespaces[FRAME_GUARD]["FrameGuard"]
+
+
+@pytest.mark.parametrize("mutation", MUTATIONS)
+def test_a_broken_guard_is_caught(mutation: str) -> None:
+    guard = mutated(*MUTATIONS[mutation])
+    assert first_difference(guard(CONFIGS["3x3"]), "3x3", range(400))
+
+
+def test_the_mutated_guard_without_a_fault_passes() -> None:
+    guard = mutated(FRAME_GUARD, "FrameGuard", "FrameGuard")
+    assert not first_difference(guard(CONFIGS["3x3"]), "3x3", range(5))

@@ -1,0 +1,30 @@
+"""FaultCounters: each fault in its own counter, which stops at its greatest value."""
+
+from softdepth.hdl.front.fault_counters import FaultCounters
+from softdepth.hdl.signatures import COUNTER_BITS, Status
+from tests.support.simulation import Ports, observe
+
+NAMES = tuple(Status.members)
+
+
+def counts(clocks: list[Ports]) -> list[dict[str, int]]:
+    """The counters after each clock's reports have arrived."""
+    idle: list[Ports] = [dict.fromkeys(NAMES, 0)] * FaultCounters.latency
+    bits = observe(FaultCounters(), [*clocks, *idle], "status")[FaultCounters.latency :]
+    views = [Status.from_bits(word) for word in bits]
+    return [{name: int(view[name]) for name in NAMES} for view in views]
+
+
+def test_each_fault_in_its_counter() -> None:
+    met = [(0,), (1,), (1, 2), (), (0, 1, 2, 3), (3,), (3,)]
+    clocks: list[Ports] = [{name: k in faults for k, name in enumerate(NAMES)} for faults in met]
+    for n, found in enumerate(counts(clocks)):
+        assert found == {name: sum(k in faults for faults in met[: n + 1]) for k, name in enumerate(NAMES)}
+
+
+def test_counters_stop_at_their_greatest_value() -> None:
+    most = 2**COUNTER_BITS - 1
+    clocks: list[Ports] = [{NAMES[0]: 1}] * (most + 3) + [{NAMES[0]: 0, NAMES[3]: 1}]
+    found = counts(clocks)
+    assert [found[n][NAMES[0]] for n in (most - 2, most - 1, most, most + 3)] == [most - 1, most, most, most]
+    assert found[-1] == {NAMES[0]: most, NAMES[1]: 0, NAMES[2]: 0, NAMES[3]: 1}

@@ -2,17 +2,16 @@
 
 from collections.abc import Iterator
 from functools import cache
-from importlib import resources
 from random import Random
 from typing import Any
 
 import pytest
-from amaranth.hdl import C
 
 from softdepth.hdl.front.frame_guard import FrameGuard
 from tests.support.broken_video import broken_video
 from tests.support.fault_table import Mended, mended
 from tests.support.frames import frames, partner
+from tests.support.mutations import FRAME_GUARD, HEIGHT_LEARNER, mutated_guard
 from tests.support.simulation import config, pair, sad
 from tests.support.trials import Outcome, Trial, run_trials
 
@@ -80,15 +79,14 @@ def test_what_leaves_is_what_the_table_says(name: str) -> None:
 
 
 # Faults put into the gateware's text: a line of it, and what stands there instead.
-FRAME_GUARD, HEIGHT_LEARNER = "frame_guard", "height_learner"
 MUTATIONS: dict[str, tuple[str, str, str]] = {
     "one frame teaches a height": (HEIGHT_LEARNER, "m.If(whole & agrees):", "m.If(whole):"),
     "two lower frames do": (HEIGHT_LEARNER, "whole & agrees & (streak == 2)", "whole & agrees"),
     "heights need not agree": (HEIGHT_LEARNER, "(streak != 0) & (row == seen)", "(streak != 0)"),
     "broken frames are passed over": (HEIGHT_LEARNER, "m.d.sync += streak.eq(0)", "pass"),
-    "a height is never forgotten": (HEIGHT_LEARNER, "overran & (overran_before | ~at_last)", "C(0)"),
+    "a height is never forgotten": (HEIGHT_LEARNER, "overran & (overran_before | ~at_last)", "overran & 0"),
     "a multiple is forgiven each time": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "~at_last"),
-    "a multiple is never forgiven": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "C(1)"),
+    "a multiple is never forgiven": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "1"),
     "marks are forgotten": (HEIGHT_LEARNER, 'm.next = "MARKS"', "pass"),
     "the last row comes late": (
         HEIGHT_LEARNER,
@@ -141,26 +139,12 @@ MUTATIONS: dict[str, tuple[str, str, str]] = {
 }
 
 
-def mutated(module: str, old: str, new: str) -> type:
-    """FrameGuard with a fault in one of its two files."""
-    namespaces: dict[str, dict[str, Any]] = {}
-    for name in (HEIGHT_LEARNER, FRAME_GUARD):
-        text = resources.files("softdepth.hdl.front").joinpath(f"{name}.py").read_text()
-        if name == module:
-            assert old in text, f"'{old}' is no longer in {name}.py"
-            text = text.replace(old, new)
-        namespaces[name] = {"__name__": f"mutated_{name}", "C": C}
-        exec(compile(text, name, "exec"), namespaces[name])
-    namespaces[FRAME_GUARD]["HeightLearner"] = namespaces[HEIGHT_LEARNER]["HeightLearner"]
-    return namespaces[FRAME_GUARD]["FrameGuard"]
-
-
 @pytest.mark.parametrize("mutation", MUTATIONS)
 def test_a_broken_guard_is_caught(mutation: str) -> None:
-    guard = mutated(*MUTATIONS[mutation])
+    guard = mutated_guard(*MUTATIONS[mutation])
     assert first_difference(guard(CONFIGS["3x3"]), "3x3", range(400))
 
 
 def test_the_mutated_guard_without_a_fault_passes() -> None:
-    guard = mutated(FRAME_GUARD, "FrameGuard", "FrameGuard")
+    guard = mutated_guard(FRAME_GUARD, "FrameGuard", "FrameGuard")
     assert not first_difference(guard(CONFIGS["3x3"]), "3x3", range(5))

@@ -1,0 +1,21 @@
+"""Gateware with faults put into its text: what a bench must catch."""
+
+from importlib import resources
+from types import ModuleType
+
+FRAME_GUARD, HEIGHT_LEARNER = "frame_guard", "height_learner"
+GUARD_FILES = (HEIGHT_LEARNER, FRAME_GUARD)
+
+
+def mutated_guard(file: str, old: str, new: str) -> type:
+    """FrameGuard with ``new`` in place of ``old`` in one of its two files."""
+    modules = {}
+    for name in GUARD_FILES:
+        text = resources.files("softdepth.hdl.front").joinpath(f"{name}.py").read_text()
+        if name == file:
+            assert old in text, f"'{old}' is no longer in {name}.py"
+            text = text.replace(old, new)
+        modules[name] = module = ModuleType(f"mutated_{name}")
+        exec(compile(text, name, "exec"), module.__dict__)
+    modules[FRAME_GUARD].__dict__["HeightLearner"] = modules[HEIGHT_LEARNER].__dict__["HeightLearner"]
+    return modules[FRAME_GUARD].__dict__["FrameGuard"]

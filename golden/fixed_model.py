@@ -39,7 +39,7 @@ from softdepth.golden.post import stages as post
 from softdepth.golden.winners.confidence import confidence
 from softdepth.golden.winners.cost import Comparison, Cost, less, less_fraction
 from softdepth.golden.winners.frame import Winners, winners
-from softdepth.spec.config import LITERAL_INPUT, QUOTIENT_BITS, Config, Criterion
+from softdepth.spec.config import LITERAL_INPUT, QUOTIENT_BITS, AnyCriterion, Config
 from softdepth.spec.errors import InputError
 from softdepth.spec.rules import CONCLUSIONS, weight
 from softdepth.spec.validity import Validity
@@ -51,7 +51,7 @@ NEVER = 1 << 30
 
 
 def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
-    """The gateware's result for one frame: HxWx3 uint8 images of one shape in, an HxW map out.
+    """The gateware's result for one frame: images of one shape in (`front.pair.Image`), an HxW map out.
 
     Raises `InputError` for unusable images, or images wider than `config.max_width`.
     """
@@ -85,7 +85,7 @@ def stages(left: Image, right: Image, config: Config) -> Stages:
     found = winners(
         reference, other, config, lambda d, criteria: cost_of(config, d, criteria), comparison(config)
     )
-    done = post.stages(config, found, validity_codes(height, width, config), reference)
+    done = post.stages(config, found, validity_codes(height, width, config), reference, config.pixel.bits)
     sure = confidence(config, found) if config.post.confidence else None
     maps, fraction_bits = {}, 0
     for stage in done:
@@ -270,7 +270,7 @@ def compensated(config: Config, d: int, criteria: list[Values]) -> list[Values]:
     )
 
 
-def memberships(criterion: Criterion, values: Values, config: Config) -> Memberships:
+def memberships(criterion: AnyCriterion, values: Values, config: Config) -> Memberships:
     """Step 3: low, middle and high membership, each ``0 .. one``; their sum is `one`."""
     one = config.one
     shift = criterion.label_bits - config.membership_bits
@@ -285,7 +285,7 @@ def integer(maximum: int) -> np.dtype[Any]:
 
 
 def _check(left: Image, right: Image, config: Config) -> None:
-    check_pair(left, right)
+    check_pair(left, right, config.pixel)
     width = left.shape[1]
     if width > config.max_width:
         raise InputError(

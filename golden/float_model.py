@@ -34,7 +34,7 @@ def disparity(
 
     Parameters
     ----------
-    left, right : rectified pair, HxWx3 uint8, of one shape.
+    left, right : rectified pair of one shape, `front.pair.Image`.
     config : the method. Its number formats (`label_bits`, `membership_bits`) do not apply here.
     label : T, the middle label of every criterion's memberships (eq. 9).
     delta, k : softness of `soft_min_1` (eq. 5) and `soft_min_2` (eq. 6); by default the configuration's.
@@ -44,7 +44,7 @@ def disparity(
 
     Raises `InputError` for unusable images and `ConfigError` for parameters outside their range.
     """
-    check_pair(left, right)
+    check_pair(left, right, config.pixel)
     cost = _cost_function(config, label, delta, k)
     reference, other = to_core_view(left, right, config)
     height, width, _ = reference.shape
@@ -76,7 +76,7 @@ def costs(
     Parameters and errors as in `disparity`; `InputError` also for a pixel outside the image. In the
     border every candidate is excluded.
     """
-    check_pair(left, right)
+    check_pair(left, right, config.pixel)
     check_pixel(left, x, y)
     cost = _cost_function(config, label, delta, k)
     reference, other = to_core_view(left, right, config)

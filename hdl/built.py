@@ -1,6 +1,7 @@
 """Which configurations there is gateware for."""
 
-from softdepth.spec.config import Config, Sad
+from softdepth.hdl.costs.lane import CRITERIA
+from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
 
 
@@ -9,7 +10,7 @@ def missing(config: Config) -> tuple[str, ...]:
     gaps = [
         f"criteria.{i} of kind '{criterion.kind}'"
         for i, criterion in enumerate(config.criteria)
-        if not isinstance(criterion, Sad)
+        if criterion.kind not in CRITERIA
     ]
     gaps += [
         f"criteria.{i}.source = 'gradient'"

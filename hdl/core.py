@@ -17,7 +17,7 @@ from softdepth.hdl.front.line_buffer import LineBuffer
 from softdepth.hdl.front.right_columns import RightColumns, candidate
 from softdepth.hdl.front.sequencer import Sequencer, tags_layout
 from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status, result_layout
+from softdepth.hdl.signatures import Status, pair_layout, result_layout
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
@@ -45,7 +45,7 @@ class StereoCore(wiring.Component):
 
     Members
     -------
-    i : stream of `PixelPair`.
+    i : stream of `pair_layout(config.pixel)`.
     o : stream of `result_layout(config)`, one result for each pixel, in the same order.
     status : counters of broken input.
     """
@@ -72,7 +72,7 @@ class StereoCore(wiring.Component):
         self.fifo_depth = -(-(promised + 2) // config.steps) + 3
         super().__init__(
             {
-                "i": In(stream.Signature(PixelPair)),
+                "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(result_layout(config))),
                 "status": Out(Status),
             }
@@ -105,7 +105,7 @@ class StereoCore(wiring.Component):
         first_of_line = control.input(sequencer.first_of_line, 1, time=1)
         first_inner = control.input(sequencer.first_inner, 1, time=1)
 
-        m.submodules.lines = lines = LineBuffer(2 * PIXEL_BITS, config.column_rows, config.max_width)
+        m.submodules.lines = lines = LineBuffer(2 * config.pixel.size, config.column_rows, config.max_width)
         item = queue.o.payload
         column = column_layout(config)
         left, right = Signal(column), Signal(column)
@@ -113,8 +113,8 @@ class StereoCore(wiring.Component):
             lines.en.eq(sequencer.load),
             lines.x.eq(item.x),
             lines.pixel.eq(Cat(item.left, item.right)),
-            left.eq(Cat(lines.column[r][:PIXEL_BITS] for r in range(config.column_rows))),
-            right.eq(Cat(lines.column[r][PIXEL_BITS:] for r in range(config.column_rows))),
+            left.eq(Cat(lines.column[r][: config.pixel.size] for r in range(config.column_rows))),
+            right.eq(Cat(lines.column[r][config.pixel.size :] for r in range(config.column_rows))),
         ]
 
         m.submodules.right = columns = RightColumns(config, column)
@@ -181,7 +181,7 @@ class StereoCore(wiring.Component):
             near.append(Signal(name=f"near_{lane}", reset_less=True))
             # The step's candidate is `farthest - step`.
             farthest = candidate(config, lane, 0)
-            m.d.sync += near[lane].eq(step.value + config.compensation.min_disparity <= farthest)
+            m.d.sync += near[lane].eq(step.value + config.compensation.from_disparity <= farthest)
         return near
 
     def _results(self, m: Module, emit: Signal, tags: data.View, sequencer: Sequencer) -> None:

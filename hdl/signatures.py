@@ -7,26 +7,27 @@ and any stall pattern leaves it intact.
 from amaranth.hdl import unsigned
 from amaranth.lib import data
 
-from softdepth.spec.config import CHANNEL_BITS, CHANNELS, Config
+from softdepth.spec.config import Config, PixelFormat
 
-PIXEL_BITS = CHANNELS * CHANNEL_BITS
 COUNTER_BITS = 16
 
-PixelPair = data.StructLayout(
-    {
-        "left": unsigned(PIXEL_BITS),
-        "right": unsigned(PIXEL_BITS),
-        "sof": 1,
-        "eol": 1,
-        "eof": 1,
-    }
-)
-"""Input payload: a rectified pixel pair and its markers.
 
-``left``, ``right`` hold red in the lowest byte, then green, then blue. ``sof`` marks a frame's
-first pixel, ``eol`` a line's last, ``eof`` a frame's last. A source without ``eof`` ties it to 0:
-a frame then ends at the next ``sof``, until two whole frames in a row have taught the core their height.
-"""
+def pixel_layout(pixel: PixelFormat) -> data.ArrayLayout:
+    """A pixel: its channels, red lowest."""
+    return data.ArrayLayout(pixel.bits, pixel.channels)
+
+
+def pair_layout(pixel: PixelFormat) -> data.StructLayout:
+    """Input payload: a rectified pixel pair and its markers.
+
+    ``left``, ``right`` hold gray, or red in the lowest bits, then green, then blue. ``sof`` marks a
+    frame's first pixel, ``eol`` a line's last, ``eof`` a frame's last. A source without ``eof`` ties it to
+    0: a frame then ends at the next ``sof``, until two whole frames in a row have taught the core their
+    height.
+    """
+    return data.StructLayout(
+        {"left": unsigned(pixel.size), "right": unsigned(pixel.size), "sof": 1, "eol": 1, "eof": 1}
+    )
 
 
 def result_layout(config: Config) -> data.StructLayout:

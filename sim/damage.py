@@ -1,14 +1,17 @@
 """Frames as broken sources send them: lines cut or too long, markers missing or misplaced.
 
 Each function takes the transfers of one frame as `softdepth.sim.transfers.pack_frame` gives them
-and returns a damaged copy. Rows and columns count from 0.
+of pixels of `rgb8` and returns a damaged copy. Rows and columns count from 0.
 """
 
 import numpy as np
 
-from softdepth.hdl.signatures import PixelPair
+from softdepth.hdl.signatures import pair_layout
 from softdepth.sim.transfers import Payloads, unpack_field
 from softdepth.spec.errors import InputError
+from softdepth.spec.pixel import PixelFormat
+
+PAIR = pair_layout(PixelFormat.RGB8)
 
 
 def drop_pixels(transfers: Payloads, y: int, count: int) -> Payloads:
@@ -54,11 +57,11 @@ def add_start(transfers: Payloads, y: int, x: int) -> Payloads:
 
 def _line(transfers: Payloads, y: int) -> tuple[int, int]:
     """First transfer of line `y`, and the first after it."""
-    ends = np.flatnonzero(unpack_field(PixelPair, "eol", transfers)) + 1
+    ends = np.flatnonzero(unpack_field(PAIR, "eol", transfers)) + 1
     if not 0 <= y < len(ends):
         raise InputError(f"line {y} is not in a frame of {len(ends)} lines", f"use 0 to {len(ends) - 1}")
     return (int(ends[y - 1]) if y else 0), int(ends[y])
 
 
 def _bit(marker: str) -> np.uint64:
-    return np.uint64(1 << PixelPair[marker].offset)
+    return np.uint64(1 << PAIR[marker].offset)

@@ -81,7 +81,9 @@ def run_frames(
         from softdepth.hdl.verilog import to_verilog  # elaboration is slow to import
 
         verilog = to_verilog(config)
-    packed = [pack_frame(*to_core_view(left, right, config), eof=eof) for left, right in pairs]
+    packed = [
+        pack_frame(*to_core_view(left, right, config), eof=eof, pixel=config.pixel) for left, right in pairs
+    ]
     sizes = [len(frame) for frame in packed]
     starts = list(accumulate(sizes))[:-1] if gap else []
     job = Job(
@@ -107,8 +109,8 @@ def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
     if not pairs:
         raise InputError("there is no stereo pair to simulate", "give one at least")
     for left, right in pairs:
-        check_pair(left, right)
-        height, width, _ = left.shape
+        check_pair(left, right, config.pixel)
+        height, width = left.shape[:2]
         if not config.min_width <= width <= config.max_width:
             raise InputError(
                 f"the pair is {width} pixels wide, the core takes {config.min_width} to {config.max_width}",

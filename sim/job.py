@@ -5,7 +5,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ class Job:
 
     Members
     -------
-    transfers : uint64 input payloads.
+    transfers : input payloads, uint64 or, where they are longer, Python integers.
     stalls : of the source and the sink.
     resets : the core is reset when this many transfers have been taken.
     gaps : idle clocks of the source, by the number of transfers taken before them.
@@ -41,7 +41,7 @@ class Job:
     patience : clocks without any transfer, though both sides are willing, after which the run stops.
     """
 
-    transfers: NDArray[np.uint64]
+    transfers: NDArray[Any]
     stalls: Stalls = field(default_factory=Stalls)
     resets: tuple[int, ...] = ()
     gaps: Mapping[int, int] = field(default_factory=dict)
@@ -59,7 +59,12 @@ class Job:
             "settle": self.settle,
             "patience": self.patience,
         }
-        np.savez(path, transfers=self.transfers, plain=np.array(json.dumps(plain)))
+        long = self.transfers.dtype == object
+        np.savez(
+            path,
+            transfers=self.transfers.astype(str) if long else self.transfers,
+            plain=np.array(json.dumps(plain)),
+        )
 
     @classmethod
     def load(cls, path: Path) -> Self:
@@ -67,6 +72,8 @@ class Job:
         with np.load(path) as file:
             plain = json.loads(str(file["plain"]))
             transfers = file["transfers"]
+        if transfers.dtype.kind == "U":
+            transfers = np.array([int(word) for word in transfers], object)
         stalls = Stalls(**{side: Pauses(**pauses) for side, pauses in plain.pop("stalls").items()})
         resets, gaps = tuple(plain.pop("resets")), dict(plain.pop("gaps"))
         return cls(transfers, stalls, resets, gaps, **plain)

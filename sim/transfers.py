@@ -1,6 +1,7 @@
 """Images into packed stream payloads, and packed results back into maps."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from amaranth.lib.data import StructLayout
@@ -8,11 +9,14 @@ from numpy.typing import NDArray
 
 from softdepth.golden.front.pair import Image, check_pair
 from softdepth.golden.maps import DisparityMap
-from softdepth.hdl.signatures import PixelPair, Status, result_layout
-from softdepth.spec.config import CHANNEL_BITS, Config
+from softdepth.hdl.signatures import Status, pair_layout, result_layout
+from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.errors import ToolError
 
-Payloads = NDArray[np.uint64]
+Payloads = NDArray[Any]
+"""Packed words: uint64, or Python integers where a word is longer."""
+
+WORD_BITS = 64
 
 RESULT = np.dtype(
     [("disparity", "u2"), ("code", "u1"), ("sof", "?"), ("eol", "?"), ("eof", "?"), ("damaged", "?")]
@@ -20,20 +24,27 @@ RESULT = np.dtype(
 """A result as NumPy sees it; the fields of `softdepth.hdl.signatures.result_layout`."""
 
 
-def pack_frame(left: Image, right: Image, *, eof: bool = True) -> Payloads:
-    """The transfers of one frame in raster order: HxWx3 uint8 images in, H*W `PixelPair` payloads out.
+def pack_frame(
+    left: Image, right: Image, *, eof: bool = True, pixel: PixelFormat = PixelFormat.RGB8
+) -> Payloads:
+    """The transfers of one frame in raster order: images of `pixel` in, H*W `pair_layout` payloads out.
 
     `left` is what the core refers to. Without `eof` the frame's last pixel is not marked. Raises
     `InputError` for images that are not a pair.
     """
-    check_pair(left, right)
-    height, width, _ = left.shape
-    frame = _pack(PixelPair, "left", _words(left)) | _pack(PixelPair, "right", _words(right))
-    ones = np.ones((), np.uint64)
-    frame[0, 0] |= _pack(PixelPair, "sof", ones)
-    frame[:, width - 1] |= _pack(PixelPair, "eol", ones)
+    check_pair(left, right, pixel)
+    height, width = left.shape[:2]
+    layout = pair_layout(pixel)
+    words = (
+        _words(image, pixel, layout) << layout[name].offset
+        for name, image in (("left", left), ("right", right))
+    )
+    frame = np.bitwise_or(*words)
+    marks = {name: _word(layout, 1 << layout[name].offset) for name in ("sof", "eol", "eof")}
+    frame[0, 0] |= marks["sof"]
+    frame[:, width - 1] |= marks["eol"]
     if eof:
-        frame[height - 1, width - 1] |= _pack(PixelPair, "eof", ones)
+        frame[height - 1, width - 1] |= marks["eof"]
     return frame.reshape(-1)
 
 
@@ -88,17 +99,19 @@ def to_maps(frames: Sequence[NDArray[np.void]]) -> list[DisparityMap]:
 def unpack_field(layout: StructLayout, name: str, words: Payloads) -> Payloads:
     """One field of packed words."""
     field = layout[name]
-    return (words >> np.uint64(field.offset)) & np.uint64((1 << field.width) - 1)
+    return (words >> _word(layout, field.offset)) & _word(layout, (1 << field.width) - 1)
 
 
-def _pack(layout: StructLayout, name: str, values: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    return values << np.uint64(layout[name].offset)
+def _word(layout: StructLayout, value: int) -> Any:
+    """A word of the type that holds a layout's payloads."""
+    return np.uint64(value) if layout.size <= WORD_BITS else value
 
 
-def _words(image: Image) -> NDArray[np.uint64]:
-    """Red in the lowest byte, then green, then blue."""
-    shifts = np.arange(image.shape[2], dtype=np.uint64) * np.uint64(CHANNEL_BITS)
-    return (image.astype(np.uint64) << shifts).sum(axis=2, dtype=np.uint64)
+def _words(image: Image, pixel: PixelFormat, layout: StructLayout) -> Payloads:
+    """Gray, or red in the lowest bits, then green, then blue."""
+    planes = image.reshape(*image.shape[:2], pixel.channels)
+    planes = planes.astype(np.uint64 if layout.size <= WORD_BITS else object)
+    return sum((planes[:, :, c] << (c * pixel.bits) for c in range(1, pixel.channels)), planes[:, :, 0])
 
 
 def _malformed(frame: int, first: int, problem: str) -> ToolError:

@@ -1,6 +1,6 @@
 """The criteria of a candidate: the numbers that say how unlike two windows are."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import numpy as np
@@ -11,6 +11,7 @@ from softdepth.golden.costs.sad import SadValues
 from softdepth.golden.costs.values import Values
 from softdepth.golden.front.pair import Image
 from softdepth.spec.config import Config
+from softdepth.spec.registry import Registry
 
 __all__ = ["EVALUATE", "FrameCriteria", "Values", "compensate"]
 
@@ -34,12 +35,12 @@ class FrameValues(Protocol):
         ...
 
 
-EVALUATE: Mapping[str, Callable[[Any, Image, Image], FrameValues]] = {
-    "sad": SadValues,
-    "census": CensusValues,
-    "gradient": GradientValues,
-}
-"""What each `kind` of criterion is computed by: (criterion, left, right) of a whole frame."""
+EVALUATE: Registry[Callable[[Any, Image, Image, int], FrameValues]] = Registry("model of a criterion")
+"""What each `kind` of criterion is computed by: (criterion, left, right, bits of a channel) of a whole frame."""
+
+EVALUATE.register("sad", SadValues)
+EVALUATE.register("census", CensusValues)
+EVALUATE.register("gradient", GradientValues)
 
 
 class FrameCriteria:
@@ -53,7 +54,7 @@ class FrameCriteria:
     def __init__(self, config: Config, left: Image, right: Image) -> None:
         self._config = config
         self._width = left.shape[1]
-        self._parts = [EVALUATE[c.kind](c, left, right) for c in config.criteria]
+        self._parts = [EVALUATE[c.kind](c, left, right, config.pixel.bits) for c in config.criteria]
 
     def band(self, first: int, stop: int) -> Callable[[int], list[Values]]:
         """The function from a candidate d to all criteria of rows ``first .. stop - 1``.
@@ -76,13 +77,13 @@ class FrameCriteria:
 
 
 def compensate(config: Config, d: int, values: list[Values], replacement: list[int]) -> list[Values]:
-    """The compensating rule: ``if d >= min_disparity and SAD > threshold, s_i := replacement_i``.
+    """The compensating rule: ``if d >= from_disparity and SAD > threshold, s_i := replacement_i``.
 
     SAD is that of `Config.compensation_criterion`, compared before anything saturates (paper,
     section 4, step 3).
     """
     rule = config.compensation
-    if rule.reading == "off" or d < rule.min_disparity:
+    if rule.reading == "off" or d < rule.from_disparity:
         return values
     assert config.compensation_criterion is not None  # the configuration has checked it
     fires = values[config.compensation_criterion] > rule.threshold

@@ -50,14 +50,14 @@ def _planes(block: NDArray[Any]) -> Planes:
 def sad(criterion: Sad, left: Planes, right: Planes) -> NDArray[np.int32]:
     """SAD of every full window: blocks of h x w pixels in, (h - window + 1) x (w - window + 1) out.
 
-    ``SAD = sum over the window, and over R, G, B, of |left - right|``, at most `criterion.maximum`.
+    ``SAD = sum over the window, and over the channels, of |left - right|``, at most `Sad.maximum_of`.
     """
     return box_sum(absolute_difference(left, right), criterion.window)
 
 
 def absolute_difference(left: Planes, right: Planes) -> NDArray[np.int32]:
     """Sum over the channels of |left - right|: planes of one shape in, rows x columns out."""
-    # Larger minus smaller stays within 8 bits, which NumPy handles fastest.
+    # Larger minus smaller stays within the images' type, which NumPy handles fastest.
     difference = np.maximum(left, right) - np.minimum(left, right)
     return difference.sum(axis=0, dtype=np.int32)
 

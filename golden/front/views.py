@@ -5,16 +5,19 @@ eq. 7 prints the other form, ``x + d``. In the mirror a right view is a left vie
 the same core fed with the pair swapped and mirrored, and its result mirrored back.
 """
 
+import numpy as np
+
 from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
 from softdepth.spec.config import Config
 
 
 def to_core_view(left: Image, right: Image, config: Config) -> tuple[Image, Image]:
-    """The pair as the core sees it, reference first: HxWx3 in, views of the same shape out.
+    """The pair as the core sees it, reference first: HxWxC (or HxW gray) in, HxWxC out.
 
     A criterion's ``dx`` counts in this view: with the right reference it points left in the user's.
     """
+    left, right = (image if image.ndim == 3 else image[:, :, np.newaxis] for image in (left, right))
     if config.reference == "right":
         return right[:, ::-1], left[:, ::-1]
     return left, right

@@ -5,9 +5,9 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.memory import Memory, WritePort
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.signatures import PIXEL_BITS, PixelPair
+from softdepth.hdl.signatures import pair_layout
 from softdepth.spec.config import Config
-from softdepth.spec.protocol import PAIR_BYTES
+from softdepth.spec.protocol import pair_bytes
 
 
 class LineStore(wiring.Component):
@@ -19,17 +19,18 @@ class LineStore(wiring.Component):
     -------
     width, height : of the frame, in pixels; steady while there is one.
     begin : a frame begins: the next line is its first.
-    valid, data : a byte of a line: `PAIR_BYTES` a pair, red, green, blue, left first.
+    valid, data : a byte of a line: `pair_bytes` a pair, red, green, blue (or gray), left first.
     close : the line has ended, and the next begins.
     overrun : the line has overtaken the reader, and is spoilt; until ``close``.
     feed : the line in store is sound: give it to the core.
     busy : it is on its way there.
     complete : the frame's last line has been fed.
-    o : stream of `PixelPair`.
+    o : stream of `pair_layout(config.pixel)`.
     """
 
     def __init__(self, config: Config) -> None:
         self._depth = config.max_width
+        self._pixel = config.pixel
         super().__init__(
             {
                 "width": In(range(config.max_width + 1)),
@@ -42,13 +43,13 @@ class LineStore(wiring.Component):
                 "feed": In(1),
                 "busy": Out(1),
                 "complete": Out(1),
-                "o": Out(stream.Signature(PixelPair)),
+                "o": Out(stream.Signature(pair_layout(config.pixel))),
             }
         )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.memory = memory = Memory(shape=2 * PIXEL_BITS, depth=self._depth, init=[])
+        m.submodules.memory = memory = Memory(shape=2 * self._pixel.size, depth=self._depth, init=[])
         write, read = memory.write_port(), memory.read_port()
         x, y = Signal(range(self._depth + 1)), Signal.like(self.height)
         self._write(m, write, x)
@@ -91,14 +92,18 @@ class LineStore(wiring.Component):
 
     def _write(self, m: Module, write: WritePort, x: Signal) -> None:
         """Bytes gather to a pair, which is written with its last byte."""
-        place = Signal(range(PAIR_BYTES))
+        pixel = self._pixel
+        count = pair_bytes(pixel)
+        place = Signal(range(count))
         address = Signal(range(self._depth + 1))
-        gathered = Signal(2 * PIXEL_BITS - 8)
-        whole = place == PAIR_BYTES - 1
+        gathered = Signal(8 * (count - 1))
+        whole = place == count - 1
+        size, channels = 8 * pixel.channel_bytes, range(2 * pixel.channels)
         overtakes = self.busy & (address >= x)
         m.d.comb += [
             write.addr.eq(address),
-            write.data.eq(Cat(gathered, self.data)),
+            # Bits above a channel's own are 0, and dropped.
+            write.data.eq(Cat(Cat(gathered, self.data).word_select(c, size)[: pixel.bits] for c in channels)),
             write.en.eq(self.valid & whole & ~overtakes & (address != self._depth)),
         ]
         with m.If(self.valid):

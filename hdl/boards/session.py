@@ -8,7 +8,7 @@ from softdepth.hdl.boards.outbox import Letter, Reply
 from softdepth.hdl.boards.result_store import SLOTS
 from softdepth.hdl.signatures import COUNTER_BITS
 from softdepth.spec.config import Config
-from softdepth.spec.protocol import REPLY, SIZE, VERSION, WINDOW, Reason, Repeat, Type
+from softdepth.spec.protocol import REPLY, SIZE, VERSION, WINDOW, Reason, Repeat, Type, pair_bytes
 
 PACKETS, BROKEN, GAPS, OVERRUNS = range(4)
 
@@ -141,6 +141,7 @@ class Session(wiring.Component):
         config = self._config
         self._size_fits, self._is_size, self._is_line = Signal(), Signal(), Signal()
         line_bytes = Signal(16)
+        each = pair_bytes(config.pixel)
         m.d.sync += [
             self._size_fits.eq(
                 (width >= config.min_width)
@@ -149,7 +150,8 @@ class Session(wiring.Component):
                 & (height <= config.max_height)
             ),
             self._is_size.eq(self.length == SIZE.size),
-            line_bytes.eq((self.width << 1) + (self.width << 2)),  # PAIR_BYTES each, without a multiplier
+            # Without a multiplier: as many shifted widths as a pair's bytes have bits.
+            line_bytes.eq(sum(self.width << bit for bit in range(each.bit_length()) if each >> bit & 1)),
             self._is_line.eq(self.length == line_bytes),
         ]
 

@@ -10,7 +10,10 @@ from softdepth.hdl.costs.fuzzy.cell_mean_inference import CellMeanInference
 from softdepth.hdl.costs.fuzzy.compensation import Compensation
 from softdepth.hdl.costs.fuzzy.inference import RuleInference
 from softdepth.hdl.costs.fuzzy.mean_inference import MeanInference
+from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS, OPERATORS
 from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.operators import REGISTRY
 
 
 def fraction_layout(config: Config) -> data.StructLayout:
@@ -21,7 +24,7 @@ def fraction_layout(config: Config) -> data.StructLayout:
 
 
 def _ports(config: Config) -> dict[str, wiring.Member]:
-    criteria = criteria_layout(c.maximum for c in config.criteria)
+    criteria = criteria_layout(config.maxima)
     return {"near": In(1), "i": In(criteria), "o": Out(fraction_layout(config))}
 
 
@@ -65,10 +68,15 @@ def inference_of(
             return MeanInference
         case "mean", "corrected", True:
             return CellMeanInference
-        case _, _, True:
+        case name, _, True if name in CELL_OPERATORS:
             return CellInference
-        case _:
+        case name, _, by_cell if name in OPERATORS and (not by_cell or REGISTRY[name].zeroing):
             return RuleInference
+        case name, _, _:
+            raise ConfigError(
+                f"there is no gateware of operator '{name}' with firing = '{config.firing}'",
+                f"use one of {CELL_OPERATORS.choices() if config.by_cell else OPERATORS.choices()}",
+            )
 
 
 class SadCost(wiring.Component):

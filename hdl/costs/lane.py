@@ -1,5 +1,8 @@
 """A lane: everything that judges one candidate."""
 
+from collections.abc import Callable
+from typing import Any
+
 from amaranth.hdl import Module, Signal
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
@@ -7,15 +10,19 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.costs.cost import COSTS, fraction_layout
 from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.sad import SadCriteria
-from softdepth.spec.config import CHANNEL_BITS, CHANNELS, Config
+from softdepth.hdl.signatures import pixel_layout
+from softdepth.spec.config import Config
+from softdepth.spec.registry import Registry
 
-CRITERIA = {"sad": SadCriteria}
+CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's gateware")
 """The component that computes each kind of criterion. All of a kind in a lane share one."""
+
+CRITERIA.register("sad", SadCriteria)
 
 
 def column_layout(config: Config) -> data.ArrayLayout:
-    """The RGB pixels of a column that lanes compare: the support without its stored rows, top first."""
-    return data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), config.column_rows)
+    """The pixels of a column that lanes compare: the support without its stored rows, top first."""
+    return data.ArrayLayout(pixel_layout(config.pixel), config.column_rows)
 
 
 class Lane(wiring.Component):
@@ -54,7 +61,7 @@ class Lane(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.cost = self._cost
-        values = Signal(criteria_layout(c.maximum for c in self._config.criteria))
+        values = Signal(criteria_layout(self._config.maxima))
         for kind, block in self._criteria.items():
             m.submodules[kind] = block
             m.d.comb += [

@@ -6,7 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.fault_counters import FaultCounters
 from softdepth.hdl.front.height_learner import HeightLearner
-from softdepth.hdl.signatures import PIXEL_BITS, PixelPair, Status
+from softdepth.hdl.signatures import Status, pair_layout
 from softdepth.spec.config import Config
 
 
@@ -24,8 +24,8 @@ def item_layout(config: Config) -> data.StructLayout:
     """
     return data.StructLayout(
         {
-            "left": unsigned(PIXEL_BITS),
-            "right": unsigned(PIXEL_BITS),
+            "left": unsigned(config.pixel.size),
+            "right": unsigned(config.pixel.size),
             "x": range(config.max_width),
             "sof": 1,
             "eol": 1,
@@ -67,7 +67,7 @@ class FrameGuard(wiring.Component):
         self._config = config
         super().__init__(
             {
-                "i": In(stream.Signature(PixelPair)),
+                "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(item_layout(config))),
                 "status": Out(Status),
             }
@@ -232,7 +232,10 @@ class FrameGuard(wiring.Component):
         # offer nothing meanwhile, or what it likes: the item does not show it.
         own = Signal()
         m.d.comb += own.eq(frame.ongoing("PAD") | frame.ongoing("END"))
-        kept = {side: Signal(PIXEL_BITS, name=f"kept_{side}", reset_less=True) for side in ("left", "right")}
+        kept = {
+            side: Signal(config.pixel.size, name=f"kept_{side}", reset_less=True)
+            for side in ("left", "right")
+        }
         within_line = frame.ongoing("LINE")
         with m.If(self.i.valid & ~own & ~(within_line & starts)):
             m.d.sync += [kept[side].eq(pair[side]) for side in kept]

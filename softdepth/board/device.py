@@ -59,15 +59,17 @@ class Device:
     def disparity(
         self, left: "Image", right: "Image", progress: Callable[[int], None] | None = None
     ) -> "DisparityMap":
-        """One frame through the core: HxWx3 uint8 images in, the map in the user's view out.
+        """One frame through the core: images of the core's pixel format in, the map in the user's view out.
 
         `progress` is called with the number of results so far. Raises `ToolError` where the link fails or
         the core reports damage.
         """
+        from softdepth.golden.front.pair import check_pair
         from softdepth.golden.front.views import from_core_view, to_core_view
         from softdepth.golden.maps import DisparityMap
 
         config = self.description.config
+        check_pair(left, right, config.pixel)
         reference, other = to_core_view(left, right, config)
         height, width, _ = reference.shape
         words = np.zeros((height, width), np.uint16)
@@ -105,6 +107,7 @@ class Device:
         height, width, _ = reference.shape
         next(self._link.ask([(Type.BEGIN, SIZE.pack(width, height))]))
         packed = np.concatenate([reference, other], axis=2)
+        packed = packed.astype(packed.dtype.newbyteorder("<"))
         requests: Iterator[Request] = ((Type.LINE, line.tobytes()) for line in packed)
         came = 0
         for line in filter(None, self._link.ask(requests)):

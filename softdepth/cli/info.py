@@ -43,7 +43,7 @@ def info(
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
     from softdepth.hdl.core import StereoCore
-    from softdepth.hdl.signatures import PixelPair, result_layout
+    from softdepth.hdl.signatures import pair_layout, result_layout
 
     with _asked():
         core = StereoCore(config)
@@ -56,7 +56,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "clocks per pixel": str(config.steps),
         "smallest frame": f"{config.min_width} x {config.min_height} pixels",
         "disparity": f"{config.disparity_bits} bits",
-        "input payload": f"{PixelPair.size} bits",
+        "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
         "latency": f"{latency} clocks after the last pixel of its window",
         "latency at full rate": f"{full_rate_latency} clocks where pixels are always on offer",
@@ -73,11 +73,10 @@ def memory_bits(config: Config) -> tuple[int, int]:
     from softdepth.hdl.costs.criteria.column_sad import column_maximum
     from softdepth.hdl.costs.criteria.row_memory import RowMemory
     from softdepth.hdl.front.line_buffer import LineBuffer
-    from softdepth.hdl.signatures import PIXEL_BITS
 
     with _asked():
-        lines = LineBuffer(2 * PIXEL_BITS, config.column_rows, config.max_width).bits
-        rows = RowMemory(range(column_maximum(1) + 1), config.stored_rows, config.places).bits
+        lines = LineBuffer(2 * config.pixel.size, config.column_rows, config.max_width).bits
+        rows = RowMemory(range(column_maximum(1, config.pixel) + 1), config.stored_rows, config.places).bits
     return lines, config.lanes * rows
 
 

@@ -11,7 +11,7 @@ from softdepth.hdl.core import StereoCore
 from softdepth.hdl.signatures import COUNTER_BITS
 from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of
 from softdepth.hdl.text.rtlil import Port as Source
-from softdepth.spec.config import CHANNEL_BITS, Config
+from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.validity import Validity
 
 COLOURS = {1: ("gray",), 3: ("red", "green", "blue")}
@@ -62,7 +62,7 @@ class Interface:
 def interface_of(core: StereoCore, config: Config, name: str) -> Interface:
     """Describe `core`, which was made of `config`, as the module `name`."""
     ports = [Port(each, "input", 1, _MEANINGS[each]) for each in (CLOCK, RESET)]
-    ports += map(_port, ports_of(core))
+    ports += [_port(source, config.pixel) for source in ports_of(core)]
     measured = (Validity.FULL, Validity.PARTIAL, Validity.BORDER)
     few = core.o.payload.shape()["code"].width == max(measured).bit_length()
     return Interface(
@@ -99,21 +99,21 @@ _MEANINGS = {
 """Of every port and field. What is not listed cannot be exported: a stranger would not know what it is."""
 
 
-def _port(source: Source) -> Port:
+def _port(source: Source, pixel: PixelFormat) -> Port:
     value = source.value
-    fields = tuple(_fields(source.name, value.shape())) if isinstance(value, data.View) else ()
+    fields = tuple(_fields(source.name, value.shape(), pixel)) if isinstance(value, data.View) else ()
     direction = "input" if source.flow is In else "output"
     return Port(source.name, direction, len(Value.cast(value)), _MEANINGS[source.name], fields)
 
 
-def _fields(port: str, layout: data.Layout) -> Iterator[Field]:
+def _fields(port: str, layout: data.Layout, pixel: PixelFormat) -> Iterator[Field]:
     for name, field in layout:
         meaning = _MEANINGS[f"{port}.{name}"]
         if port == "status":
             meaning += f"; stays at {2**COUNTER_BITS - 1}"
         yield Field(str(name), field.offset, field.width, meaning)
         if port == "i_payload" and name in ("left", "right"):
-            colours = COLOURS[field.width // CHANNEL_BITS]
+            colours = COLOURS[pixel.channels]
             for k, colour in enumerate(colours if len(colours) > 1 else ()):
-                low = field.offset + k * CHANNEL_BITS
-                yield Field(f"{name}_{colour}", low, CHANNEL_BITS, f"its {colour}")
+                low = field.offset + k * pixel.bits
+                yield Field(f"{name}_{colour}", low, pixel.bits, f"its {colour}")

@@ -5,21 +5,23 @@ overridden (``lanes=8``, ``compensation.reading=off``, ``criteria.0.window=5``).
 and reach that the models and the gateware need is a property here, derived from these fields.
 """
 
-from typing import Any, Literal, Self, get_args
+from functools import cached_property
+from typing import Any, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
 from softdepth.spec import ranges
 from softdepth.spec.criteria import (
-    CHANNEL_BITS,
-    CHANNELS,
     LITERAL_INPUT,
+    AnyCriterion,
     Census,
     Compensation,
     Criterion,
     Gradient,
     Sad,
 )
+from softdepth.spec.operators import REGISTRY
+from softdepth.spec.pixel import PixelFormat
 from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
 from softdepth.spec.ranges import MULTIPLIER_BITS, QUOTIENT_BITS
@@ -27,24 +29,28 @@ from softdepth.spec.rules import Firing, RuleBaseName
 from softdepth.spec.settings import Settings
 
 __all__ = [
-    "CHANNELS",
-    "CHANNEL_BITS",
     "LITERAL_INPUT",
     "MULTIPLIER_BITS",
     "OPERATORS",
     "PRESETS",
     "QUOTIENT_BITS",
+    "AnyCriterion",
     "Census",
     "Compensation",
     "Config",
     "Criterion",
     "Gradient",
     "Operator",
+    "PixelFormat",
     "Post",
     "Sad",
 ]
 
-Operator = Literal["min", "prod", "mean", "soft_min_1", "soft_min_2"]
+Operator = str
+"""The name of a registered operator."""
+
+OPERATORS: tuple[Operator, ...] = ("min", "prod", "mean", "soft_min_1", "soft_min_2")
+"""The paper's operators, in its order; `softdepth.spec.operators.REGISTRY` has all."""
 
 NARROWEST = 4
 """Pixels of the shortest line that the memories of lines can follow."""
@@ -62,6 +68,7 @@ class Config(Settings):
     lanes: int = Field(default=16, ge=1, le=256)
     max_width: int = Field(default=1280, ge=8, le=8192)
     max_height: int = Field(default=1080, ge=8, le=8192)
+    pixel: PixelFormat = Field(default=PixelFormat.RGB8, strict=False)
     reference: Literal["left", "right"] = "left"
     cost: Literal["fuzzy", "sum"] = "fuzzy"
     operator: Operator = "mean"
@@ -83,6 +90,13 @@ class Config(Settings):
     def _earlier_name(cls, value: Any) -> Any:
         """``sad`` is the earlier name of the sum, when it was of one criterion."""
         return "sum" if value == "sad" else value
+
+    @field_validator("operator")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        if name not in REGISTRY:
+            raise ValueError(f"it is no operator: use one of {REGISTRY.choices()}")
+        return name
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -155,13 +169,13 @@ class Config(Settings):
 
     @property
     def sads(self) -> tuple[Sad, ...]:
-        """The criteria that have a border band."""
+        """The SADs among the criteria."""
         return tuple(c for c in self.criteria if isinstance(c, Sad))
 
     @property
     def whole_frame(self) -> bool:
         """Every pixel has a result: no criterion has a border band."""
-        return not self.sads
+        return all(c.whole_frame for c in self.criteria)
 
     @property
     def result_bits(self) -> int:
@@ -171,7 +185,7 @@ class Config(Settings):
     @property
     def code_bits(self) -> int:
         """Bits of a result's `Validity` code."""
-        return 3 if self.post.any or len(self.sads) < len(self.criteria) else 2
+        return 3 if self.post.any or any(c.whole_frame for c in self.criteria) else 2
 
     # -- derived: reach of the support around the reference pixel, in pixels ---------------------
     # These speak of the border band: criteria that count what is outside as 0 have none.
@@ -179,17 +193,17 @@ class Config(Settings):
     @property
     def reach_left(self) -> int:
         """Columns the support extends left of the reference pixel."""
-        return max((0, *(c.radius - c.dx for c in self.sads)))
+        return max(0, 0, *(c.reach_left for c in self.criteria))
 
     @property
     def reach_right(self) -> int:
         """Columns the support extends right of the reference pixel."""
-        return max((0, *(c.radius + c.dx for c in self.sads)))
+        return max(0, 0, *(c.reach_right for c in self.criteria))
 
     @property
     def reach_rows(self) -> int:
         """Rows the support extends above, and below, the reference pixel."""
-        return max((0, *(c.radius for c in self.sads)))
+        return max(0, 0, *(c.reach_rows for c in self.criteria))
 
     @property
     def min_width(self) -> int:
@@ -224,17 +238,22 @@ class Config(Settings):
 
         The others have a membership of 0, and with MIN and PROD a strength of 0.
         """
-        return self.firing == "cell" or self.operator in ("min", "prod")
+        return self.firing == "cell" or REGISTRY[self.operator].zeroing
 
-    @property
+    @cached_property
+    def maxima(self) -> tuple[int, ...]:
+        """The largest value of each criterion."""
+        return tuple(c.maximum_of(self.pixel) for c in self.criteria)
+
+    @cached_property
     def strength_range(self) -> tuple[int, int]:
         """Smallest and largest firing strength of a rule, in the operator's own scale.
 
         The mean leaves out its 1/3 (it cancels in N/S); soft-min I goes below zero, as eq. 5 does.
         """
-        return ranges.strengths(self)
+        return REGISTRY[self.operator].strength_range(self)
 
-    @property
+    @cached_property
     def cost_range(self) -> tuple[tuple[int, int], tuple[int, int]]:
         """Smallest and largest numerator, and the same of the denominator, of a candidate's cost."""
         return ranges.costs(self)
@@ -272,6 +291,3 @@ class Config(Settings):
             if isinstance(c, Sad) and (c.window, c.dx, c.source) == (3, 0, "colour")
         ]
         return found[0] if found else None
-
-
-OPERATORS: tuple[Operator, ...] = get_args(Operator)

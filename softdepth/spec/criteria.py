@@ -1,13 +1,15 @@
 """The parts of a configuration: criteria and the compensating rule (Bobyr et al. 2021)."""
 
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, SerializeAsAny, model_validator
+from pydantic_core import PydanticCustomError
+
+from softdepth.spec.pixel import PixelFormat
+from softdepth.spec.registry import Registry
 
 Reading = Literal["off", "top", "literal"]
 
-CHANNELS = 3
-CHANNEL_BITS = 8
 GRADIENT_CAP = 31
 """Largest gradient that the SADs of gradients see."""
 RECIPROCAL_BITS = 12
@@ -24,16 +26,55 @@ class Frozen(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
-class Sad(Frozen):
-    """Criterion: sum of absolute RGB differences over ``window x window`` pixels (eq. 7).
+class AnyCriterion(Frozen):
+    """What every criterion states of itself; a further one is a subclass, registered in `CRITERIA`.
+
+    Fields of each: ``kind``, its name, and ``label_bits``. Memberships have their labels at 0, T and 2T
+    with ``T = 2**label_bits``; larger values saturate at 2T.
+
+    ``whole_frame``: it says itself what lies outside the image, and has a value in every pixel. Those
+    of the others have none whose support leaves the image; how far that extends around the reference
+    pixel is said by the reaches, in pixels, negative where it begins beyond it.
+    """
+
+    whole_frame: ClassVar[bool] = False
+    kind: str
+    if TYPE_CHECKING:  # each has its own default, and puts it last
+        label_bits: int
+
+    @property
+    def reach_left(self) -> int:
+        """Columns left of the reference pixel, of a band without a result."""
+        return 0
+
+    @property
+    def reach_right(self) -> int:
+        """Columns right of it."""
+        return 0
+
+    @property
+    def reach_rows(self) -> int:
+        """Rows above it, and below."""
+        return 0
+
+    def maximum_of(self, pixel: PixelFormat) -> int:
+        """The largest value of pixels of this format; the smallest is 0."""
+        raise NotImplementedError
+
+
+CRITERIA: Registry[type[AnyCriterion]] = Registry("criterion")
+"""The criteria by `kind`."""
+
+
+class Sad(AnyCriterion):
+    """Criterion: sum of absolute differences over ``window x window`` pixels and channels (eq. 7).
 
     The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
     at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T. ``source = "gradient"``
     compares the luma's horizontal gradient, held within +-`GRADIENT_CAP`, in place of the colours.
     """
 
-    whole_frame: ClassVar[bool] = False
-    kind: Literal["sad"] = "sad"
+    kind: Literal["sad"] = "sad"  # pyright: ignore[reportIncompatibleVariableOverride]
     source: Literal["colour", "gradient"] = "colour"
     window: int = Field(default=3, ge=1, le=15)
     dx: int = Field(default=0, ge=-16, le=16)
@@ -50,17 +91,31 @@ class Sad(Frozen):
         return self.window // 2
 
     @property
-    def maximum(self) -> int:
-        """The largest value the sum can take."""
-        pixel = CHANNELS * (2**CHANNEL_BITS - 1) if self.source == "colour" else 2 * GRADIENT_CAP
-        return self.window**2 * pixel
+    def reach_left(self) -> int:
+        """Columns left of the reference pixel."""
+        return self.radius - self.dx
+
+    @property
+    def reach_right(self) -> int:
+        """Columns right of it."""
+        return self.radius + self.dx
+
+    @property
+    def reach_rows(self) -> int:
+        """Rows above it, and below."""
+        return self.radius
+
+    def maximum_of(self, pixel: PixelFormat) -> int:
+        """The sum where all pixels differ as much as they can."""
+        most = pixel.channels * pixel.maximum if self.source == "colour" else 2 * GRADIENT_CAP
+        return self.window**2 * most
 
     def __str__(self) -> str:
         of = " of gradient" if self.source == "gradient" else ""
         return f"sad({self.window}, {self.dx:+d}){of}"
 
 
-class Census(Frozen):
+class Census(AnyCriterion):
     """Criterion: unlike census bits, summed down a column and over columns of like colour.
 
     The 24 bits of a pixel say which of the black squares of a 7x7 chessboard around it are darker
@@ -77,7 +132,7 @@ class Census(Frozen):
 
     whole_frame: ClassVar[bool] = True
     bits: ClassVar[int] = 24
-    kind: Literal["census"] = "census"
+    kind: Literal["census"] = "census"  # pyright: ignore[reportIncompatibleVariableOverride]
     window: Literal[7] = 7
     rows: int = Field(default=9, ge=1, le=15)
     taps: int = Field(default=7, ge=1, le=15)
@@ -107,6 +162,10 @@ class Census(Frozen):
         """The largest sum down a column."""
         return self.bits * self.rows
 
+    def maximum_of(self, pixel: PixelFormat) -> int:
+        """`maximum`, whatever the pixels."""
+        return self.maximum
+
     @property
     def maximum(self) -> int:
         """The largest value."""
@@ -127,7 +186,7 @@ class Census(Frozen):
         return f"census({self.rows}, {self.taps} x {self.spacing})"
 
 
-class Gradient(Frozen):
+class Gradient(AnyCriterion):
     """Criterion: differences of the horizontal gradient, summed over ``rows x columns`` pixels.
 
     The gradient is the luma's Sobel, edges replicated, held within +-`cap`. A pixel's difference is at
@@ -136,7 +195,7 @@ class Gradient(Frozen):
     """
 
     whole_frame: ClassVar[bool] = True
-    kind: Literal["gradient"] = "gradient"
+    kind: Literal["gradient"] = "gradient"  # pyright: ignore[reportIncompatibleVariableOverride]
     rows: int = Field(default=5, ge=1, le=15)
     columns: int = Field(default=5, ge=1, le=15)
     cap: int = Field(default=31, ge=1, le=127)
@@ -153,6 +212,10 @@ class Gradient(Frozen):
                 f" {self.truncation}"
             )
         return self
+
+    def maximum_of(self, pixel: PixelFormat) -> int:
+        """`maximum`, whatever the pixels."""
+        return self.maximum
 
     @property
     def maximum(self) -> int:
@@ -180,31 +243,33 @@ def check_odd(**sizes: int) -> None:
             raise ValueError(f"{name} is {size}, but a window has a centre: use an odd size")
 
 
-KINDS: dict[str, type[Sad] | type[Census] | type[Gradient]] = {
-    "sad": Sad,
-    "census": Census,
-    "gradient": Gradient,
-}
-"""The model of each `kind` of criterion."""
+CRITERIA.register("sad", Sad)
+CRITERIA.register("census", Census)
+CRITERIA.register("gradient", Gradient)
 
 
-def _kind(value: Any) -> str:
-    """The kind of a criterion that may leave it out: then it is a SAD."""
-    kind = value.get("kind", "sad") if isinstance(value, dict) else getattr(value, "kind", "sad")
-    return str(kind)
+UNKNOWN_KIND = "unknown_kind"
+"""The type of the error that a criterion of no known kind gives."""
 
 
-Criterion = Annotated[
-    Annotated[Sad, Tag("sad")] | Annotated[Census, Tag("census")] | Annotated[Gradient, Tag("gradient")],
-    Discriminator(_kind),
-]
-"""A further criterion is a further model here, told apart by its `kind`."""
+def criterion_of(data: Any) -> AnyCriterion:
+    """The criterion that plain data describe; without a `kind` it is a SAD."""
+    if isinstance(data, AnyCriterion):
+        return data
+    kind = data.get("kind", "sad") if isinstance(data, dict) else "sad"
+    if kind not in CRITERIA:
+        raise PydanticCustomError(UNKNOWN_KIND, "{kind}", {"kind": kind})
+    return CRITERIA[kind].model_validate(data)
+
+
+Criterion = Annotated[SerializeAsAny[AnyCriterion], PlainValidator(criterion_of)]
+"""A field that takes any registered criterion."""
 
 
 class Compensation(Frozen):
     """The compensating rule against false near objects (paper, section 4, step 3).
 
-    Candidates with ``d >= min_disparity`` whose SAD exceeds ``threshold`` have all criteria
+    Candidates with ``d >= from_disparity`` whose SAD exceeds ``threshold`` have all criteria
     replaced: by the top label 2T (``top``) or by 1000 (``literal``). ``criterion`` says which SAD is
     looked at: 0 is the centred 3x3 one of eq. 7, 1 to 3 the criterion of that number. The paper's
     Fig. 4 is met by ``top`` looking at criterion 3.
@@ -212,5 +277,5 @@ class Compensation(Frozen):
 
     reading: Reading = "off"
     threshold: int = Field(default=1200, ge=0)
-    min_disparity: int = Field(default=32, ge=0)
+    from_disparity: int = Field(default=32, ge=-256)
     criterion: int = Field(default=0, ge=0, le=3)

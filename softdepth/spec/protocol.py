@@ -17,7 +17,7 @@ import zlib
 from enum import IntEnum
 from typing import Any, NamedTuple
 
-from softdepth.spec.config import CHANNELS, Config
+from softdepth.spec.config import Config, PixelFormat
 
 VERSION = 1
 FLAG = 0x7E
@@ -29,9 +29,6 @@ CRC_BYTES = 4
 SEQUENCES = 1 << 16
 WINDOW = 2
 """Requests that may be under way: the board keeps as many replies, to send them again."""
-
-PAIR_BYTES = 2 * CHANNELS
-"""A pixel pair in a line: left red, green, blue, then right."""
 
 REPLY = 0x80
 SIZE = struct.Struct("<HH")
@@ -136,6 +133,11 @@ def decode(framed: bytes) -> Packet | None:
     if len(content) != HEADER.size + length:
         return None
     return Packet(kind, sequence, content[HEADER.size :], version)
+
+
+def pair_bytes(pixel: PixelFormat) -> int:
+    """Bytes of a pixel pair in a line: left red, green, blue, or gray, then right; each little endian."""
+    return 2 * pixel.bytes
 
 
 def result_bytes(config: Config) -> int:

@@ -11,7 +11,7 @@ from typing import Any, Self
 import tomli_w
 from pydantic import BaseModel, ValidationError
 
-from softdepth.spec.criteria import KINDS, Compensation, Frozen, Sad
+from softdepth.spec.criteria import CRITERIA, UNKNOWN_KIND, AnyCriterion, Compensation, Frozen
 from softdepth.spec.errors import ConfigError
 from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
@@ -43,7 +43,7 @@ class Settings(Frozen):
         try:
             return cls.model_validate({**data})
         except ValidationError as error:
-            raise _explain(error, cls) from error
+            raise _explain(error, cls, data) from error
 
     def override(self, assignments: Sequence[str]) -> Self:
         """A copy with ``key=value`` assignments applied; nested keys are dotted (`criteria.0.window`)."""
@@ -86,19 +86,22 @@ class Settings(Frozen):
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:12]
 
 
-def _explain(error: ValidationError, model: type[BaseModel]) -> ConfigError:
+def _criterion(data: Any) -> type[AnyCriterion]:
+    return CRITERIA[data.get("kind", "sad")]
+
+
+def _explain(error: ValidationError, model: type[BaseModel], data: Mapping[str, Any]) -> ConfigError:
     """The first validation error as one line with key, value and remedy."""
     first = error.errors(include_url=False)[0]
     place = list(first["loc"])
-    kind = str(place.pop(2)) if place[:1] == ["criteria"] and len(place) > 2 else "sad"  # a tag, no key
     key = ".".join(map(str, place))
-    if first["type"] == "union_tag_invalid":
-        return ConfigError(
-            f"{key}.kind is {first.get('ctx', {}).get('tag')}", f"use one of {', '.join(KINDS)}"
-        )
+    if first["type"] == UNKNOWN_KIND:
+        return ConfigError(f"{key}.kind is {first['msg']}", f"use one of {CRITERIA.choices()}")
     if first["type"] == "extra_forbidden":
-        tables = {"compensation": Compensation, "criteria": KINDS.get(kind, Sad), "post": Post}
+        tables = {"compensation": Compensation, "post": Post}
         table = tables.get(str(place[0]), model)
+        if place[0] == "criteria" and len(place) > 1:
+            table = _criterion(data["criteria"][place[1]])
         known = table.model_fields if len(place) > 1 else model.model_fields
         return ConfigError(f"unknown key '{key}'", f"known keys: {', '.join(known)}")
     message = first["msg"].removeprefix("Value error, ")

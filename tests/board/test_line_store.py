@@ -6,9 +6,11 @@ from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
 from softdepth.hdl.boards.line_store import LineStore
-from softdepth.spec.protocol import PAIR_BYTES
+from softdepth.spec.pixel import PixelFormat
+from softdepth.spec.protocol import pair_bytes
 from tests.support.simulation import config, simulate
 
+PAIR_BYTES = pair_bytes(PixelFormat.RGB8)
 WIDTH, HEIGHT = 5, 3
 
 

@@ -107,7 +107,7 @@ def random_config(seed: int) -> Config:
             "compensation": {
                 "reading": reading,
                 "threshold": int(rng.integers(0, 3000)),
-                "min_disparity": int(rng.integers(0, disparities + 1)),
+                "from_disparity": int(rng.integers(0, disparities + 1)),
                 "criterion": judged,
             },
         }

@@ -137,7 +137,7 @@ def test_compensation_literal_makes_far_candidates_look_good():
 
 
 @pytest.mark.parametrize(("reading", "inserted"), [("top", 8192), ("literal", 1000)])
-def test_compensation_replaces_all_criteria_from_min_disparity_on(reading, inserted):
+def test_compensation_replaces_all_criteria_from_from_disparity_on(reading, inserted):
     left, right = near_pair()
     trace = fixed_model.trace(left, right, near_config(reading), 80, 4)
     fires = (np.arange(64) >= 32) & (trace.criteria[:, 0] > 1200)
@@ -150,7 +150,7 @@ def test_compensation_threshold_is_exclusive():
     left, right = np.zeros((2, 7, 10, 3), np.uint8)
     right[3, 3:, 0] = 40  # SAD3 of the middle row: three pixels of 40
     for threshold, expected in ((119, 8192), (120, 120)):
-        config = make(compensation={"reading": "top", "threshold": threshold, "min_disparity": 0})
+        config = make(compensation={"reading": "top", "threshold": threshold, "from_disparity": 0})
         assert fixed_model.trace(left, right, config, 5, 3).inputs[0, 0] == expected
 
 

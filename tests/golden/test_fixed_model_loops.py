@@ -43,7 +43,7 @@ def loop_cost(left, right, x, y, d, c):
         return Fraction(s[0])
     tops = [2 * 2**i.label_bits for i in c.criteria]
     rule = c.compensation
-    if rule.reading != "off" and d >= rule.min_disparity:
+    if rule.reading != "off" and d >= rule.from_disparity:
         if rule.criterion == 0:
             assert any((i.window, i.dx) == (3, 0) for i in c.criteria)
             seen = loop_sad(left, right, x, y, d, 3, 0)
@@ -147,7 +147,7 @@ def random_config(rng):
             "criterion": looked_at,
             "reading": str(rng.choice(["top", "literal"])),
             "threshold": int(rng.integers(0, 3000)),
-            "min_disparity": int(rng.integers(0, disparities)),
+            "from_disparity": int(rng.integers(0, disparities)),
         }
     return Config.from_dict(
         {
@@ -209,7 +209,7 @@ def test_extreme_widths_match_the_loops(operator, label_bits, membership_bits, r
             "max_multipliers": 1000,
             "membership_bits": membership_bits,
             "criteria": criteria,
-            "compensation": {"reading": reading, "min_disparity": 2},
+            "compensation": {"reading": reading, "from_disparity": 2},
         }
     )
     rng = np.random.default_rng(label_bits)

@@ -86,7 +86,7 @@ def test_costs_follow_the_equations(operator, settings, top):
 @pytest.mark.parametrize(("reading", "inserted"), [("top", 10000), ("literal", 1000)])
 def test_compensated_costs_follow_the_rule(reading, inserted):
     left, right = noise(7, 16), noise(7, 16, 1)
-    config = make(compensation={"reading": reading, "threshold": 2300, "min_disparity": 2})
+    config = make(compensation={"reading": reading, "threshold": 2300, "from_disparity": 2})
     got = float_model.costs(left, right, config, 12, 3)
     fired = 0
     for d in range(6):
@@ -129,7 +129,7 @@ def test_literal_and_top_differ_from_off_in_the_map():
     left, right = noise(20, 30), noise(20, 30, 1)
     maps = [
         float_model.disparity(
-            left, right, make(compensation={"reading": r, "threshold": 2300, "min_disparity": 2})
+            left, right, make(compensation={"reading": r, "threshold": 2300, "from_disparity": 2})
         ).disparity
         for r in ("off", "top", "literal")
     ]

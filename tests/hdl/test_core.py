@@ -69,7 +69,7 @@ def run(c: Config, pairs: list[tuple[Images, Images]], **keys: Any) -> Transfers
     return stream_through(StereoCore(c), list(chain.from_iterable(transfers(*p) for p in pairs)), **keys)
 
 
-FUZZY = {"membership_bits": 6, "compensation": {"reading": "top", "min_disparity": 3, "threshold": 900}}
+FUZZY = {"membership_bits": 6, "compensation": {"reading": "top", "from_disparity": 3, "threshold": 900}}
 NEST = [sad(3, label_bits=9), sad(5, label_bits=11), sad(7, label_bits=12)]
 ROW = [sad(3, dx, label_bits=10) for dx in (-2, 0, 2)]
 CONFIGS: dict[str, Config] = {
@@ -139,15 +139,15 @@ def test_infinite_costs(lanes: int) -> None:
     check(run(c, [(left, right)]).payloads, [expected])
 
 
-@pytest.mark.parametrize("min_disparity", [2, 3, 4])
-def test_compensation_begins_at_its_disparity(min_disparity: int) -> None:
+@pytest.mark.parametrize("from_disparity", [2, 3, 4])
+def test_compensation_begins_at_its_disparity(from_disparity: int) -> None:
     """The scene lies at disparity 3, and the rule fires wherever it may."""
-    rule = {"reading": "top", "min_disparity": min_disparity, "threshold": 0}
+    rule = {"reading": "top", "from_disparity": from_disparity, "threshold": 0}
     c = config(criteria=ROW, disparities=6, lanes=2, compensation=rule)
     pairs = [images(5, c.min_width + 7, c.min_height + 1, 3)]
     expected = [disparity(*p, c) for p in pairs]
     check(run(c, pairs).payloads, expected)
-    assert bool((expected[0].disparity == 3).any()) == (min_disparity > 3)
+    assert bool((expected[0].disparity == 3).any()) == (from_disparity > 3)
 
 
 @pytest.mark.parametrize("name", ["sad, 2 lanes, 3 steps", "sad, all lanes", "lite, mean, 2 lanes, 3 steps"])

@@ -14,9 +14,9 @@ from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.stream import Signature
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.signatures import PixelPair, Status, result_layout
+from softdepth.hdl.signatures import Status, pair_layout, result_layout
 from softdepth.hdl.verilog import to_verilog
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, PixelFormat
 
 Fault = Literal["none", "drops_valid", "changes_payload", "loses_last", "repeats_last", "hangs"]
 
@@ -38,7 +38,7 @@ class StandIn(wiring.Component):
         self.fault = fault
         super().__init__(
             {
-                "i": In(Signature(PixelPair)),
+                "i": In(Signature(pair_layout(PixelFormat.RGB8))),
                 "o": Out(Signature(result_layout(config))),
                 "status": Out(Status),
             }

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from softdepth.hdl.signatures import PixelPair
+from softdepth.hdl.signatures import pair_layout
 from softdepth.sim import damage
 from softdepth.sim.transfers import Payloads, pack_frame, unpack_field
 from softdepth.spec.errors import InputError
+from softdepth.spec.pixel import PixelFormat
 
 HEIGHT, WIDTH = 9, 12
 
@@ -17,7 +18,7 @@ def frame(pair: tuple[np.ndarray, np.ndarray]) -> Payloads:
 
 
 def marked(transfers: Payloads, marker: str) -> list[int]:
-    return np.flatnonzero(unpack_field(PixelPair, marker, transfers)).tolist()
+    return np.flatnonzero(unpack_field(pair_layout(PixelFormat.RGB8), marker, transfers)).tolist()
 
 
 def line_lengths(transfers: Payloads) -> list[int]:

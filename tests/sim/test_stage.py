@@ -16,7 +16,7 @@ from softdepth.spec.validity import Validity
 CONFIG = Config.preset("paper").override(
     [
         *("disparities=8", "lanes=4"),
-        *("compensation.reading=top", "compensation.min_disparity=3", "compensation.threshold=700"),
+        *("compensation.reading=top", "compensation.from_disparity=3", "compensation.threshold=700"),
     ]
 )
 RIGHT = CONFIG.override(["reference=right"])

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from softdepth.hdl.signatures import PixelPair, Status, result_layout
+from softdepth.hdl.signatures import Status, pair_layout, result_layout
 from softdepth.sim.transfers import RESULT, pack_frame, split_frames, to_maps, unpack_results, unpack_status
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.errors import InputError, ToolError
 
 HEIGHT, WIDTH = 9, 12
@@ -18,7 +18,7 @@ def test_packs_as_the_gateware_unpacks(pair: tuple[np.ndarray, np.ndarray], eof:
     assert transfers.shape == (HEIGHT * WIDTH,)
     for number, word in enumerate(transfers.tolist()):
         y, x = divmod(number, WIDTH)
-        pixel = PixelPair.from_bits(word)
+        pixel = pair_layout(PixelFormat.RGB8).from_bits(word)
         assert pixel.left.to_bytes(3, "little") == left[y, x].tobytes()
         assert pixel.right.to_bytes(3, "little") == right[y, x].tobytes()
         assert pixel.sof == (number == 0)

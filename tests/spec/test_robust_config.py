@@ -4,6 +4,7 @@ import pytest
 
 from softdepth.spec.config import Census, Config, Gradient, Sad
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.pixel import PixelFormat
 
 
 @pytest.mark.parametrize(
@@ -63,5 +64,5 @@ def test_the_largest_values():
     assert Census().maximum == 864
     assert Gradient(cap=3, truncation=16).maximum == 25 * 6
     assert Gradient().maximum == 25 * 16
-    assert Sad(window=3, source="gradient").maximum == 9 * 62
+    assert Sad(window=3, source="gradient").maximum_of(PixelFormat.RGB8) == 9 * 62
     assert Config.preset("robust").cost_range == ((0, 864 + 400), (1, 1))

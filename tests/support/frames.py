@@ -4,8 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from softdepth.hdl.signatures import PIXEL_BITS
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, PixelFormat
 from tests.support.simulation import pair
 
 Lines = list[list[int]]
@@ -58,7 +57,7 @@ def source(frame: Lines, *, eof: bool = True, marks: dict[tuple[int, int], str] 
 
 def partner(left: int) -> int:
     """The right pixel that comes with a left one."""
-    return left ^ (2**PIXEL_BITS - 1)
+    return left ^ (2**PixelFormat.RGB8.size - 1)
 
 
 def frames(items: Iterable[Any], c: Config) -> list[Frame]:

@@ -11,7 +11,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.golden import fixed_model
 from softdepth.hdl.costs.cost import fraction_layout
-from softdepth.spec.config import Config
+from softdepth.spec.config import Config, PixelFormat
 from tests.support.simulation import config, piped, sad
 
 Values = tuple[int, ...]
@@ -48,7 +48,7 @@ def settings(bits: int, *label_bits: int, windows: Sequence[int] = (3, 3, 3), **
 def positions(c: Config, i: int, maximum: int | None = None) -> list[int]:
     """Every membership position of a criterion, once or from both ends of its range, and beyond 2T."""
     criterion = c.criteria[i]
-    maximum = criterion.maximum if maximum is None else maximum
+    maximum = criterion.maximum_of(PixelFormat.RGB8) if maximum is None else maximum
     unit = 1 << (criterion.label_bits - c.membership_bits)
     top = 2 << criterion.label_bits
     found = {u * unit + (unit - 1) * (u % 2) for u in range(2 * c.one + 1)}
@@ -63,13 +63,13 @@ def around_the_labels(c: Config, i: int, random: Random) -> int:
     unit = 1 << (criterion.label_bits - c.membership_bits)
     value = random.choice(
         (
-            random.randint(0, criterion.maximum),
+            random.randint(0, criterion.maximum_of(PixelFormat.RGB8)),
             random.randrange(4 * half),
             random.randrange(5) * half + random.randint(-2, 2) * unit + random.randint(-1, 1),
             random.randrange(5) * half + random.randint(-12, 12) * unit,
         )
     )
-    return min(max(value, 0), criterion.maximum)
+    return min(max(value, 0), criterion.maximum_of(PixelFormat.RGB8))
 
 
 def stimulus(sets: Sequence[Values]) -> list[dict[str, Any]]:
@@ -79,7 +79,7 @@ def stimulus(sets: Sequence[Values]) -> list[dict[str, Any]]:
 
 def gateware(kind: Kind, c: Config, sets: Sequence[Values], maxima: list[int] | None = None) -> Fractions:
     """What the inference makes of each set; ``maxima`` are the criteria's own, if not given."""
-    dut = Inference(kind, c, maxima or [criterion.maximum for criterion in c.criteria])
+    dut = Inference(kind, c, maxima or [criterion.maximum_of(PixelFormat.RGB8) for criterion in c.criteria])
     return [(o.num, o.den) for o in piped(dut, stimulus(sets))]
 
 

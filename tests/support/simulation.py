@@ -11,8 +11,8 @@ from amaranth.lib import data, wiring
 from amaranth.sim import Simulator, SimulatorContext
 
 from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD
-from softdepth.hdl.signatures import PixelPair, Status
-from softdepth.spec.config import Config
+from softdepth.hdl.signatures import Status, pair_layout
+from softdepth.spec.config import Config, PixelFormat
 
 Ports = Mapping[str, Any]
 """Values of input ports in one clock; ports left out keep theirs."""
@@ -161,10 +161,21 @@ def stream_through(
     return result
 
 
-def pair(left: int, right: int, *, sof: bool = False, eol: bool = False, eof: bool = False) -> int:
-    """The bits of a `PixelPair`."""
+def pair(
+    left: int,
+    right: int,
+    *,
+    pixel: PixelFormat = PixelFormat.RGB8,
+    sof: bool = False,
+    eol: bool = False,
+    eof: bool = False,
+) -> int:
+    """The bits of a `pair_layout`."""
     return (
-        PixelPair.const({"left": left, "right": right, "sof": sof, "eol": eol, "eof": eof}).as_value().value
+        pair_layout(pixel)
+        .const({"left": left, "right": right, "sof": sof, "eol": eol, "eof": eof})
+        .as_value()
+        .value
     )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from softdepth.golden.costs.fuzzy.inference import Memberships, PairTheta, conclusions, joined_conclusions
 from softdepth.spec.config import Config
+from softdepth.spec.registry import Registry
 from softdepth.spec.soft import Table, soft_min_1_table, soft_min_2_table
 
 Integers = NDArray[np.signedinteger[Any]]
@@ -44,18 +45,30 @@ def soft_min_2(a: Integers, b: Integers, *, table: Table, maximum: bool) -> Inte
 
 def pair_operator(config: Config) -> PairTheta:
     """The configured operator on two operands; a rule's strength is ``Theta(a, Theta(b, c))``."""
-    match config.operator:
-        case "min":
-            return minimum
-        case "prod":
-            return partial(product, bits=config.membership_bits)
-        case "mean":
-            return total
-        case "soft_min_1":
-            return partial(soft_min_1, table=soft_min_1_table(config.one, config.softness))
-        case "soft_min_2":
-            table = soft_min_2_table(config.one, config.sharpness)
-            return partial(soft_min_2, table=table, maximum=config.sharpness < 0)
+    return FIXED[config.operator](config)
+
+
+FIXED: Registry[Callable[[Config], PairTheta]] = Registry("operator in integers")
+"""The operators by name: from a configuration to Theta of two operands."""
+
+JOINED = frozenset({"soft_min_2"})
+"""Those that are not monotone, and join rules before the outer Theta."""
+
+
+def _soft_min_1_of(config: Config) -> PairTheta:
+    return partial(soft_min_1, table=soft_min_1_table(config.one, config.softness))
+
+
+def _soft_min_2_of(config: Config) -> PairTheta:
+    table = soft_min_2_table(config.one, config.sharpness)
+    return partial(soft_min_2, table=table, maximum=config.sharpness < 0)
+
+
+FIXED.register("min", lambda _: minimum)
+FIXED.register("prod", lambda config: partial(product, bits=config.membership_bits))
+FIXED.register("mean", lambda _: total)
+FIXED.register("soft_min_1", _soft_min_1_of)
+FIXED.register("soft_min_2", _soft_min_2_of)
 
 
 def conclude(config: Config, memberships: Sequence[Memberships]) -> Any:
@@ -65,7 +78,7 @@ def conclude(config: Config, memberships: Sequence[Memberships]) -> Any:
     in criterion 1 before the outer Theta: see `joined_conclusions`.
     """
     theta = pair_operator(config)
-    if config.operator == "soft_min_2":
+    if config.operator in JOINED:
         return joined_conclusions(memberships, theta, config.rules, config.firing)
     return conclusions(memberships, lambda a, b, c: theta(a, theta(b, c)), config.rules, config.firing)
 

@@ -6,10 +6,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.spec.config import Operator
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.registry import Registry
 
 Array = NDArray[np.float64]
+Theta = Callable[[Array, Array, Array], Array]
+"""The operator of a rule: the memberships of criteria 1, 2, 3 to its firing strength."""
 MAX_STEEPNESS = 500.0
 """The largest |k| of `soft_min_2`: beyond it, exp(-k) times a few leaves double precision's range."""
 
@@ -47,7 +49,7 @@ def soft_min_2(a: Array, b: Array, c: Array, *, k: float) -> Array:
     return (a * wa + b * wb + c * wc) / (wa + wb + wc)
 
 
-def operator(name: Operator, *, delta: float, k: float) -> Callable[[Array, Array, Array], Array]:
+def operator(name: str, *, delta: float, k: float) -> Theta:
     """The operator called `name`, with its softness bound.
 
     Raises `ConfigError` for a negative `delta` or a `k` beyond `MAX_STEEPNESS`.
@@ -56,14 +58,14 @@ def operator(name: Operator, *, delta: float, k: float) -> Callable[[Array, Arra
         raise ConfigError(f"delta is {delta}, but it is a width", "use 0 or more; the paper has 0.05")
     if not abs(k) <= MAX_STEEPNESS:
         raise ConfigError(f"k is {k}", f"use -{MAX_STEEPNESS:g}..{MAX_STEEPNESS:g}; the paper has -100")
-    match name:
-        case "min":
-            return minimum
-        case "prod":
-            return product
-        case "mean":
-            return mean
-        case "soft_min_1":
-            return partial(soft_min_1, delta=delta)
-        case "soft_min_2":
-            return partial(soft_min_2, k=k)
+    return FLOAT[name](delta, k)
+
+
+FLOAT: Registry[Callable[[float, float], Theta]] = Registry("operator in floating point")
+"""The operators by name: (delta, k) -> Theta."""
+
+FLOAT.register("min", lambda *_: minimum)
+FLOAT.register("prod", lambda *_: product)
+FLOAT.register("mean", lambda *_: mean)
+FLOAT.register("soft_min_1", lambda delta, _: partial(soft_min_1, delta=delta))
+FLOAT.register("soft_min_2", lambda _, k: partial(soft_min_2, k=k))

@@ -9,12 +9,11 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.adders import Field, add_fields
 from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.arithmetic.wires import constant
 from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD, RowMemory
-from softdepth.spec.config import CHANNEL_BITS, CHANNELS
+from softdepth.hdl.signatures import pixel_layout
+from softdepth.spec.config import PixelFormat
 
-CHANNEL_MAXIMUM = 2**CHANNEL_BITS - 1
-ROW_OPERATIONS = 3
-"""Operations of a row's cost: differences, red and green, blue."""
 STORED_READY = (RowMemory.latency - LOOKUP_AHEAD) * LEVELS
 """When the costs from memory are there, in operations after the columns."""
 
@@ -29,11 +28,11 @@ class Difference:
     def magnitude(self, pipeline: Pipeline, time: int) -> Word:
         """``|a - b| - sign``: the difference, or its one's complement, at ``time``."""
         word, sign = pipeline.at(self.word, time), pipeline.at(self.sign, time)
-        return replace(word, value=~(word.value ^ sign.value.replicate(CHANNEL_BITS)))
+        return replace(word, value=~(word.value ^ sign.value.replicate(len(word.value))))
 
     def complement(self) -> Word:
         """The one's complement of `magnitude`, when the difference is computed."""
-        return replace(self.word, value=self.word.value ^ self.sign.value.replicate(CHANNEL_BITS))
+        return replace(self.word, value=self.word.value ^ self.sign.value.replicate(len(self.word.value)))
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Summand:
 
 
 class ColumnSad(wiring.Component):
-    """Sums a column's absolute RGB differences over each window's height, one column a clock.
+    """Sums a column's absolute differences over each window's height, one column a clock.
 
     ``|a - b|`` is ``a - b`` or its negation, which is one's complement and a 1. The complement is
     taken at the input of the adder that follows, and the 1 is that adder's carry, so that an absolute
@@ -54,6 +53,7 @@ class ColumnSad(wiring.Component):
     Parameters
     ----------
     windows : window heights in ascending order, all odd.
+    pixel : what is compared.
     stored_rows : rows whose costs come from memory. They are the upper ones: each was computed when
         it was lower in the column.
     places : columns of the longest line, times candidates of a pixel.
@@ -66,18 +66,22 @@ class ColumnSad(wiring.Component):
     o : ``c3, c5, ...``: the cost of the middle 3, 5, ... rows, `latency` clocks later.
     """
 
-    def __init__(self, windows: Sequence[int], stored_rows: int = 0, places: int = 1) -> None:
+    def __init__(
+        self, windows: Sequence[int], pixel: PixelFormat, stored_rows: int = 0, places: int = 1
+    ) -> None:
         self._windows = windows
+        self._pixel = pixel
         self._stored = stored_rows
         self._places = places
         # The rows from memory come at a fixed clock, and the computed ones with them. Without any, the
         # first operation is as late as it can be for the last to end in a register.
         sums = _sum_operations(windows)
-        ready = STORED_READY if stored_rows else start(ROW_OPERATIONS + sums) + ROW_OPERATIONS
-        self._begin = ready - ROW_OPERATIONS
+        row = row_operations(pixel)
+        ready = STORED_READY if stored_rows else start(row + sums) + row
+        self._begin = ready - row
         self.latency = clocks(ready + sums)
-        column = data.ArrayLayout(data.ArrayLayout(CHANNEL_BITS, CHANNELS), windows[-1] - stored_rows)
-        costs = {f"c{w}": range(column_maximum(w) + 1) for w in windows}
+        column = data.ArrayLayout(pixel_layout(pixel), windows[-1] - stored_rows)
+        costs = {f"c{w}": range(column_maximum(w, pixel) + 1) for w in windows}
         super().__init__(
             {
                 "valid": In(1),
@@ -118,9 +122,9 @@ class ColumnSad(wiring.Component):
         if newest < -innermost or not complete:
             complete.add(-innermost)
         pixels = {o: (self.left[k], self.right[k]) for k, o in enumerate(offsets)}
-        rows = _row_costs(pipeline, self._begin, pixels, complete)
+        rows = _row_costs(pipeline, self._pixel, self._begin, pixels, complete)
         if self._stored:
-            shape = range(column_maximum(1) + 1)
+            shape = range(column_maximum(1, self._pixel) + 1)
             m.submodules.memory = memory = RowMemory(shape, self._stored, self._places)
             time = STORED_READY
             m.d.comb += [
@@ -129,13 +133,19 @@ class ColumnSad(wiring.Component):
                 memory.newest.eq(pipeline.at(rows[newest].word, time).value),
             ]
             for k, offset in enumerate(range(-radius, newest)):
-                rows[offset] = Summand(pipeline.input(memory.rows[k], column_maximum(1), time=time))
+                word = pipeline.input(memory.rows[k], column_maximum(1, self._pixel), time=time)
+                rows[offset] = Summand(word)
         return rows
 
 
-def column_maximum(window: int) -> int:
+def column_maximum(window: int, pixel: PixelFormat) -> int:
     """The largest cost of a column as high as ``window``."""
-    return window * CHANNELS * CHANNEL_MAXIMUM
+    return window * pixel.channels * pixel.maximum
+
+
+def row_operations(pixel: PixelFormat) -> int:
+    """Operations of a row's cost: differences, red and green, blue; or of gray, and the 1 it may lack."""
+    return pixel.channels if pixel.channels > 1 else 2
 
 
 def _sum_operations(windows: Sequence[int]) -> int:
@@ -149,16 +159,23 @@ def _sum_operations(windows: Sequence[int]) -> int:
 
 
 def _row_costs(
-    pipeline: Pipeline, time: int, pixels: Mapping[int, tuple[Value, Value]], complete: Container[int]
+    pipeline: Pipeline,
+    pixel: PixelFormat,
+    time: int,
+    pixels: Mapping[int, tuple[Value, Value]],
+    complete: Container[int],
 ) -> dict[int, Summand]:
     """The cost of each row of pixels. Those that must be ``complete`` lack no 1."""
-    rows = {offset: _differences(pipeline, time, *pair) for offset, pair in pixels.items()}
+    rows = {offset: _differences(pipeline, pixel, time, *pair) for offset, pair in pixels.items()}
+    ready = time + row_operations(pixel)
+    if pixel.channels == 1:
+        return {o: _gray_cost(pipeline, gray, ready, whole=o in complete) for o, (gray,) in rows.items()}
     # Two inverted operands do not fit into a carry cell of ECP5, two complements of them do: the
     # complement of x + y + carry is the sum of their complements and the carry's.
     first = {(offset, 0): _complement(red, green) for offset, (red, green, _) in rows.items()}
     first |= {(offset, 1): _complement(row[2]) for offset, row in rows.items() if offset in complete}
     sums = {
-        key: replace(word, value=~word.value, maximum=2 * CHANNEL_MAXIMUM)
+        key: replace(word, value=~word.value, maximum=2 * pixel.maximum)
         for key, word in zip(first, add_fields(pipeline, list(first.values())), strict=True)
     }
     second = []
@@ -168,23 +185,34 @@ def _row_costs(
         second.append(Field(pair, whole, pipeline.at(green.sign, pair.time)))
     return {
         offset: Summand(
-            replace(word, maximum=column_maximum(1)),
+            replace(word, maximum=column_maximum(1, pixel)),
             None if offset in complete else rows[offset][2].sign,
         )
         for offset, word in zip(rows, add_fields(pipeline, second), strict=True)
     }
 
 
-def _differences(pipeline: Pipeline, time: int, left: Value, right: Value) -> list[Difference]:
+def _gray_cost(pipeline: Pipeline, gray: Difference, ready: int, *, whole: bool) -> Summand:
+    """The cost of a gray pixel, one operation after its difference if it must be ``whole``."""
+    if not whole:
+        return Summand(gray.magnitude(pipeline, ready), pipeline.at(gray.sign, ready))
+    part = gray.magnitude(pipeline, ready - 1)
+    (word,) = add_fields(pipeline, [Field(part, constant(0, part), pipeline.at(gray.sign, ready - 1))])
+    return Summand(replace(word, value=word.value[: len(part.value)], maximum=part.maximum))
+
+
+def _differences(
+    pipeline: Pipeline, pixel: PixelFormat, time: int, left: Value, right: Value
+) -> list[Difference]:
     """The differences of a pixel's channels, by one adder with a guard bit above each."""
     fields = [
-        Field(*(pipeline.input(value, CHANNEL_MAXIMUM, time=time) for value in (left[c], ~right[c])))
-        for c in range(CHANNELS)
+        Field(*(pipeline.input(value, pixel.maximum, time=time) for value in (left[c], ~right[c])))
+        for c in range(pixel.channels)
     ]
     return [
         Difference(
-            Word(word.value[:CHANNEL_BITS], 0, CHANNEL_MAXIMUM, word.time),
-            Word(word.value[CHANNEL_BITS], 0, 1, word.time),
+            Word(word.value[: pixel.bits], 0, pixel.maximum, word.time),
+            Word(word.value[pixel.bits], 0, 1, word.time),
         )
         for word in add_fields(pipeline, fields)
     ]
@@ -192,7 +220,7 @@ def _differences(pipeline: Pipeline, time: int, left: Value, right: Value) -> li
 
 def _complement(a: Difference, b: Difference | None = None) -> Field:
     """The one's complement of ``a + b`` but for the 1 that is missing from b; of ``a`` alone, whole."""
-    other = b.complement() if b else replace(a.word, value=Const(CHANNEL_MAXIMUM, CHANNEL_BITS))
+    other = b.complement() if b else replace(a.word, value=Const(a.word.maximum, len(a.word.value)))
     return Field(a.complement(), other, replace(a.sign, value=~a.sign.value))
 
 

@@ -1,4 +1,4 @@
-"""SAD criteria: sums of absolute RGB differences over windows (Bobyr et al. 2021, eq. 7)."""
+"""SAD criteria: sums of absolute differences over windows (Bobyr et al. 2021, eq. 7)."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,8 @@ from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.box_sum import BoxSum
 from softdepth.hdl.costs.criteria.column_sad import ColumnSad, column_maximum
 from softdepth.hdl.memory.delay import Delay
-from softdepth.spec.config import CHANNEL_BITS, CHANNELS, Config, Sad
+from softdepth.hdl.signatures import pixel_layout
+from softdepth.spec.config import Config, Sad
 
 
 class SadCriteria(wiring.Component):
@@ -39,11 +40,10 @@ class SadCriteria(wiring.Component):
         self._config = config
         self._criteria = criteria
         self._windows = sorted({criterion.window for criterion in criteria})
-        self._column = ColumnSad(self._windows, config.stored_rows, config.places)
-        self._boxes = {w: BoxSum(column_maximum(w), w, config.steps) for w in self._windows}
+        self._column = ColumnSad(self._windows, config.pixel, config.stored_rows, config.places)
+        self._boxes = {w: BoxSum(column_maximum(w, config.pixel), w, config.steps) for w in self._windows}
         self.latency = self._column.latency + max(box.latency for box in self._boxes.values())
-        pixel = data.ArrayLayout(CHANNEL_BITS, CHANNELS)
-        column = data.ArrayLayout(pixel, config.column_rows)
+        column = data.ArrayLayout(pixel_layout(config.pixel), config.column_rows)
         super().__init__(
             {
                 "valid": In(1),
@@ -51,7 +51,7 @@ class SadCriteria(wiring.Component):
                 "place": In(range(config.places)),
                 "left": In(column),
                 "right": In(column),
-                "o": Out(criteria_layout(c.maximum for c in criteria)),
+                "o": Out(criteria_layout(c.maximum_of(config.pixel) for c in criteria)),
             }
         )
 

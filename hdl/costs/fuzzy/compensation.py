@@ -11,12 +11,12 @@ from softdepth.spec.config import LITERAL_INPUT, Config
 class Compensation(wiring.Component):
     """Replaces all criteria of a near candidate whose SAD is too large.
 
-    Near candidates are those of ``d >= min_disparity``. They get the top label 2T, or 1000 in the
+    Near candidates are those of ``d >= from_disparity``. They get the top label 2T, or 1000 in the
     literal reading. One candidate a clock, one clock of latency, also when the rule is off.
 
     Members
     -------
-    near : the candidate's disparity reaches ``min_disparity``.
+    near : the candidate's disparity reaches ``from_disparity``.
     i, o : the criteria before and after.
     """
 
@@ -24,11 +24,14 @@ class Compensation(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self.maxima = [max(c.maximum, _replacement(config, c.label_bits)) for c in config.criteria]
+        self.maxima = [
+            max(maximum, _replacement(config, c.label_bits))
+            for c, maximum in zip(config.criteria, config.maxima, strict=True)
+        ]
         super().__init__(
             {
                 "near": In(1),
-                "i": In(criteria_layout(c.maximum for c in config.criteria)),
+                "i": In(criteria_layout(config.maxima)),
                 "o": Out(criteria_layout(self.maxima)),
             }
         )

@@ -13,7 +13,7 @@ from softdepth.golden.costs.fuzzy.inference import conclusions
 from softdepth.golden.costs.fuzzy.operators import operator
 from softdepth.golden.costs.sad import box_sum
 from softdepth.golden.float_model import memberships
-from softdepth.spec.config import CHANNELS, Config, Operator
+from softdepth.spec.config import Config, Operator
 from softdepth.spec.rules import CONCLUSIONS, weight
 from softdepth.studies.paper.readings import Reading
 
@@ -43,7 +43,7 @@ def disparity(left: np.ndarray, right: np.ndarray, reading: Reading, name: Opera
         best = np.full(found.shape, np.inf)
         for d in range(reading.candidates):
             difference = np.abs(reference[part] - other[part, far - d : far - d + width + 2 * r])
-            sums = [box_sum(difference[:, :, channel], window) for channel in range(CHANNELS)]
+            sums = [box_sum(difference[:, :, channel], window) for channel in range(left.shape[2])]
             costs = cost(sums, name, reading.label)
             better = costs < best
             best[better] = costs[better]

@@ -6,7 +6,7 @@ import pytest
 
 from softdepth.golden.costs.criteria import FrameCriteria
 from softdepth.golden.costs.sad import absolute_difference, sad
-from softdepth.spec.config import Config, Sad
+from softdepth.spec.config import Config, PixelFormat, Sad
 
 
 def planes(height, width, seed):
@@ -39,7 +39,7 @@ def test_the_largest_sum_fits(window):
     black, white = np.zeros((3, 17, 17), np.uint8), np.full((3, 17, 17), 255, np.uint8)
     criterion = Sad(window=window)
     assert (sad(criterion, black, white) == window * window * 765).all()
-    assert (sad(criterion, white, black) == criterion.maximum).all()
+    assert (sad(criterion, white, black) == criterion.maximum_of(PixelFormat.RGB8)).all()
 
 
 def test_absolute_difference_sums_the_channels():

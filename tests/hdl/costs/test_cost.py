@@ -27,9 +27,12 @@ def random_sets(c: Config, count: int) -> list[Set]:
     sets = []
     for k in range(count):
         scale = random.choice((0.05, 0.3, 1.0))
-        values = [random.randint(0, int(s.maximum * scale)) for s in c.criteria]
+        values = [random.randint(0, int(most * scale)) for most in c.maxima]
         if k % 10 == 0:
-            values = [random.choice((0, min(1 << s.label_bits, s.maximum), s.maximum)) for s in c.criteria]
+            values = [
+                random.choice((0, min(1 << s.label_bits, most), most))
+                for s, most in zip(c.criteria, c.maxima, strict=True)
+            ]
         sets.append((values, bool(random.getrandbits(1))))
     return sets
 
@@ -44,7 +47,7 @@ def model(c: Config, sets: list[Set]) -> list[tuple[int, int]]:
     """The same from the fixed model; a candidate's disparity says whether it is near."""
     found = []
     for values, near in sets:
-        d = c.compensation.min_disparity if near else 0
+        d = c.compensation.from_disparity if near else 0
         n, s = fixed_model.fraction(c, d, [np.array([v], np.int32) for v in values])
         found.append((n.item(), s.item()))
     return found
@@ -95,6 +98,6 @@ def test_a_denominator_of_zero_or_below_gives_one_over_zero() -> None:
 
 def test_sad_cost_is_the_criterion_itself() -> None:
     c = config(cost="sum", criteria=[sad(5)])
-    values = [0, 1, 4096, c.criteria[0].maximum]
+    values = [0, 1, 4096, c.maxima[0]]
     got = piped(COSTS["sum"](c), [{"i": {"s0": v}, "near": 1} for v in values])
     assert [(o.num, o.den) for o in got] == [(v, 0) for v in values]

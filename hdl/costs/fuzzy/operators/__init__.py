@@ -17,6 +17,7 @@ from softdepth.hdl.costs.fuzzy.operators.soft_extremum import SoftExtremum
 from softdepth.hdl.costs.fuzzy.operators.soft_min_1 import SoftMin1
 from softdepth.hdl.costs.fuzzy.operators.soft_min_2 import SoftMin2
 from softdepth.spec.config import Config
+from softdepth.spec.registry import Registry
 
 
 class Operator(Protocol):
@@ -39,18 +40,17 @@ class Operator(Protocol):
         ...
 
 
-OPERATORS: dict[str, Callable[[Config], Operator]] = {
-    "mean": Mean,
-    "soft_min_1": SoftMin1,
-    "soft_min_2": SoftMin2,
-}
+OPERATORS: Registry[Callable[[Config], Operator]] = Registry("operator's gateware")
 """The unit behind a value of `Config.operator` where all rules fire."""
 
-CELL_OPERATORS: dict[str, Callable[[Config], CellOperator]] = {
-    "min": Minimum,
-    "prod": Product,
-    "mean": CellMean,
-    "soft_min_1": SoftExtremum,
-    "soft_min_2": SoftExtremum,
-}
+CELL_OPERATORS: Registry[Callable[[Config], CellOperator]] = Registry("operator's gateware by cell")
 """The unit behind a value of `Config.operator` where the rules of a cell fire."""
+
+OPERATORS.register("mean", Mean)
+OPERATORS.register("soft_min_1", SoftMin1)
+OPERATORS.register("soft_min_2", SoftMin2)
+CELL_OPERATORS.register("min", Minimum)
+CELL_OPERATORS.register("prod", Product)
+CELL_OPERATORS.register("mean", CellMean)
+CELL_OPERATORS.register("soft_min_1", SoftExtremum)
+CELL_OPERATORS.register("soft_min_2", SoftExtremum)

@@ -7,6 +7,7 @@ import pytest
 
 from softdepth.hdl.costs.criteria.column_sad import ColumnSad, column_maximum
 from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD
+from softdepth.spec.pixel import PixelFormat
 from tests.support.simulation import Ports, looked_up, observe
 
 WINDOWS = [(1,), (3,), (5,), (1, 3), (3, 5, 7), (1, 5), (3, 9), (1, 3, 5, 7, 9), (5, 7, 11)]
@@ -77,7 +78,7 @@ def check(windows: tuple[int, ...], stored: int, left: Rows, right: Rows, seed: 
                     "right": [right[row][place] for row in rows],
                 }
             )
-    dut = ColumnSad(windows, stored, PLACES)
+    dut = ColumnSad(windows, PixelFormat.RGB8, stored, PLACES)
     drive = looked_up([*drive, *(idle() for _ in range(dut.latency))], coming="valid")
     seen = observe(dut, drive, "o")
     compared = 0
@@ -139,4 +140,4 @@ def test_the_largest_costs(stored: int) -> None:
     left = [(black, white)[y % 2] for y in range(rows)]
     right = [(white, black)[y % 2] for y in range(rows)]
     check(windows, stored, left, right, seed=3)
-    assert [column_maximum(w) for w in windows] == [w * 3 * 255 for w in windows]
+    assert [column_maximum(w, PixelFormat.RGB8) for w in windows] == [w * 3 * 255 for w in windows]

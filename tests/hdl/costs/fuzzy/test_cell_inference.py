@@ -18,7 +18,7 @@ from softdepth.hdl.costs.fuzzy.inference import RuleInference
 from softdepth.hdl.costs.fuzzy.mean_inference import MeanInference
 from softdepth.hdl.costs.fuzzy.operators import soft_extremum
 from softdepth.spec import rules as rule_bases
-from softdepth.spec.config import LITERAL_INPUT, Config
+from softdepth.spec.config import LITERAL_INPUT, Config, PixelFormat
 from softdepth.spec.errors import ConfigError
 from softdepth.spec.soft import soft_min_2_table
 from tests.support.expected import fraction
@@ -61,7 +61,7 @@ def random_sets(c: Config, count: int) -> list[Values]:
             mirrored = random.choice((values[i], abs(top // 2 - values[i]), abs(top - values[i])))
             step = 1 << (c.criteria[i].label_bits - c.membership_bits)
             near = mirrored + random.randint(-9, 9) * step
-            values[j] = min(max(near, 0) * (2 << c.criteria[j].label_bits) // top, c.criteria[j].maximum)
+            values[j] = min(max(near, 0) * (2 << c.criteria[j].label_bits) // top, c.maxima[j])
         sets.append(tuple(values))
     return sets
 
@@ -107,14 +107,14 @@ def test_criteria_that_never_reach_a_label(operator: str, windows: tuple[int, in
     """A window of one pixel and its colours stays below 2**10."""
     c = settings(4, 9, 10, 12, windows=windows, operator=operator)
     random = Random(5)
-    sets = [tuple(random.randint(0, s.maximum) for s in c.criteria) for _ in range(300)]
-    assert not differing(c, [*sets, tuple(s.maximum for s in c.criteria)])
+    sets = [tuple(random.randint(0, s.maximum_of(PixelFormat.RGB8)) for s in c.criteria) for _ in range(300)]
+    assert not differing(c, [*sets, tuple(s.maximum_of(PixelFormat.RGB8) for s in c.criteria)])
 
 
 def test_inputs_beyond_the_criteria() -> None:
     """The literal compensating rule gives 1000 to a criterion that by itself is smaller."""
     c = settings(4, 9, 9, 9, windows=(1, 3, 1), operator="min")
-    maxima = [max(s.maximum, LITERAL_INPUT) for s in c.criteria]
+    maxima = [max(s.maximum_of(PixelFormat.RGB8), LITERAL_INPUT) for s in c.criteria]
     sets = list(product((0, 300, 511, 512, LITERAL_INPUT), repeat=3))
     assert not differing(c, sets, maxima)
 
@@ -165,7 +165,7 @@ def test_latency(keys: dict[str, Any], clocks: int) -> None:
     sets = [(0, 0, 0)] * 12 + [(9000, 2000, 5000)] + [(0, 0, 0)] * 12
     inputs = stimulus(sets)
     for output, expected in zip(("num", "den"), zip(*model(c, sets), strict=True), strict=True):
-        dut = CellInference(c, [criterion.maximum for criterion in c.criteria])
+        dut = CellInference(c, [criterion.maximum_of(PixelFormat.RGB8) for criterion in c.criteria])
         assert dut.latency == clocks
         got = observe(dut, inputs, output)[clocks:]
         assert [n for n, bits in enumerate(got) if bits != got[0]] == [12]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from softdepth.hdl.costs.fuzzy.cell_mean_inference import CellMeanInference
-from softdepth.spec.config import LITERAL_INPUT, Config
+from softdepth.spec.config import LITERAL_INPUT, Config, PixelFormat
 from softdepth.spec.rules import CORRECTED, PRINTED, RuleBase, weight
 from tests.support.inferences import Values, around_the_labels, gateware, model, positions, stimulus
 from tests.support.inferences import settings as any_settings
@@ -58,7 +58,7 @@ def differing(c: Config, sets: Sequence[Values], maxima: list[int] | None = None
     ids=lambda c: f"{c.membership_bits} bits, {[s.label_bits for s in c.criteria]}",
 )
 def test_equals_the_rules_at_every_position(c: Config) -> None:
-    maxima = [criterion.maximum for criterion in c.criteria]
+    maxima = [criterion.maximum_of(PixelFormat.RGB8) for criterion in c.criteria]
     sets = list(product(*(positions(c, i, maximum) for i, maximum in enumerate(maxima))))
     assert differing(c, sets) == []
 
@@ -75,7 +75,9 @@ def test_equals_the_rules_at_every_position(c: Config) -> None:
 )
 def test_what_exceeds_a_criterions_own_range(c: Config, maxima: list[int]) -> None:
     sets = list(product(*(positions(c, i, maximum) for i, maximum in enumerate(maxima))))
-    assert any(v > s.maximum for values in sets for v, s in zip(values, c.criteria, strict=True))
+    assert any(
+        v > s.maximum_of(PixelFormat.RGB8) for values in sets for v, s in zip(values, c.criteria, strict=True)
+    )
     assert differing(c, sets, maxima) == []
 
 
@@ -90,7 +92,7 @@ def test_equals_the_rules_at_many_bits(bits: int, labels: Values) -> None:
         first, second = (around_the_labels(c, i, random) for i in (0, 1))
         shift = labels[2] - labels[1]
         third = (second << max(shift, 0) >> max(-shift, 0)) + random.randint(-1, 1)
-        sets.append((first, second, min(max(third, 0), c.criteria[2].maximum)))
+        sets.append((first, second, min(max(third, 0), c.maxima[2])))
     for corner in product((0, 1, 2), repeat=3):  # the corners of all cells
         sets.append(tuple(at << label for at, label in zip(corner, labels, strict=True)))
     assert differing(c, sets) == []

@@ -30,11 +30,15 @@ def test_replaces_all_criteria_of_a_near_candidate(
     looked_at = criterion - 1 if criterion else centred
     random = Random(5)
     sets = []
-    for seen in (0, threshold - 1, threshold, threshold + 1, c.criteria[looked_at].maximum):
+    for seen in (0, threshold - 1, threshold, threshold + 1, c.maxima[looked_at]):
         for near in (0, 1):
             for fill in ("random", "all zero", "all full"):
                 values = [
-                    {"random": random.randint(0, s.maximum), "all zero": 0, "all full": s.maximum}[fill]
+                    {
+                        "random": random.randint(0, s.maximum_of(c.pixel)),
+                        "all zero": 0,
+                        "all full": s.maximum_of(c.pixel),
+                    }[fill]
                     for s in c.criteria
                 ]
                 values[looked_at] = seen

@@ -36,7 +36,7 @@ class FrameValues(Protocol):
 
 
 EVALUATE: Registry[Callable[[Any, Image, Image, int], FrameValues]] = Registry("model of a criterion")
-"""What each `kind` of criterion is computed by: (criterion, left, right, bits of a channel) of a whole frame."""
+"""What each `kind` is computed by: (criterion, left, right, bits of a channel) of a whole frame."""
 
 EVALUATE.register("sad", SadValues)
 EVALUATE.register("census", CensusValues)

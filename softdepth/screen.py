@@ -1,6 +1,7 @@
 """What a user sees while a command works: stages, progress and tables."""
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
@@ -38,14 +39,25 @@ def progress(what: str, pixels: int) -> Iterator[Advance]:
         yield lambda done: bar.update(task, completed=done)
 
 
+def duration(seconds: float) -> str:
+    """A time as a user estimates it: seconds up to two minutes, then minutes, then hours."""
+    if seconds < 120:
+        return f"{max(round(seconds), 1)} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
+
+
 def _logger(what: str, pixels: int) -> Advance:
     shown = 0
+    start = time.monotonic()
 
     def advance(done: int) -> None:
         nonlocal shown
         percent = 100 * done // max(pixels, 1)
         if percent // LOG_EVERY_PERCENT > shown // LOG_EVERY_PERCENT:
-            note(f"{what}: {done} of {pixels} pixels ({percent} %)")
+            left = (time.monotonic() - start) / done * (pixels - done)
+            ends = f", about {duration(left)} left" if done < pixels else ""
+            note(f"{what}: {done} of {pixels} pixels ({percent} %){ends}")
             shown = percent
 
     return advance

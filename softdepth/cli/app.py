@@ -1,5 +1,6 @@
 """The command line. `main` turns every problem of the user's into one line and an exit code."""
 
+import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Annotated
@@ -8,7 +9,19 @@ import typer
 from typer.exceptions import TyperException
 
 from softdepth import ending
-from softdepth.cli import bench, board, build, compare, export, info, listing, paper, run, utilization
+from softdepth.cli import (
+    bench,
+    board,
+    build,
+    compare,
+    export,
+    info,
+    listing,
+    options,
+    paper,
+    run,
+    utilization,
+)
 from softdepth.spec.errors import InputError
 
 app = typer.Typer(
@@ -54,6 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> int | None:
+    options.arguments.set(tuple(sys.argv[1:] if arguments is None else arguments))
     try:
         return app(arguments, standalone_mode=False)
     except TyperException as error:

@@ -117,6 +117,7 @@ def _preset(config: Config, pair: "StereoPair", rows: int) -> dict[str, float]:
     from softdepth.sim.frames import run_frames
 
     crop = replace(pair, left=pair.left[:rows], right=pair.right[:rows], truth=None)
+    config = measure.as_large_as(crop, config)
     measure.check_fits(crop, config)
     with screen.progress(f"preset {config.name}, gateware", crop.width * crop.height) as advance:
         frames = run_frames(config, [(crop.left, crop.right)], progress=advance)

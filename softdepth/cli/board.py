@@ -7,22 +7,18 @@ import typer
 
 from softdepth import screen
 from softdepth.cli import options, pairs, run
+from softdepth.cli.bundle import bundled
 from softdepth.spec.boards import BOARDS, find_board
 from softdepth.spec.errors import InputError
 
 DEFAULT_BOARD = "ulx3s-85f"
 
 
+@bundled
 def board(
     port: Annotated[str, typer.Option("--port", metavar="PORT", help="Serial port, e.g. /dev/ttyUSB0.")],
-    left: pairs.Left = None,
-    right: pairs.Right = None,
-    dataset: pairs.Dataset = None,
-    truth: pairs.GroundTruth = None,
-    truth_scale: pairs.GroundTruthScale = None,
-    bits: pairs.Bits = None,
-    side_by_side: pairs.SideBySide = False,
-    top_bottom: pairs.TopBottom = False,
+    source: pairs.Source,
+    choice: options.Choice,
     name: Annotated[
         str, typer.Option("--board", metavar="NAME", help=f"One of {', '.join(BOARDS)}: for the baud rate.")
     ] = DEFAULT_BOARD,
@@ -33,12 +29,6 @@ def board(
         float,
         typer.Option("--timeout", metavar="S", help="Seconds without an answer before packets are repeated."),
     ] = 0.5,
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of pictures, maps and report.")
     ] = Path("out"),
@@ -52,16 +42,7 @@ def board(
         raise InputError(f"--baud {rate} is no rate", "give bits per second, for example 2000000")
     if not 0 < timeout < float("inf"):
         raise InputError(f"--timeout {timeout:g} is no time", "give seconds, for example 0.5")
-    given = any(
-        value is not None for value in (preset, config, assignments or None, lanes, disparities, operator)
-    )
-    wanted = (
-        options.configuration(
-            preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
-        )
-        if given
-        else None
-    )
+    wanted = choice.configuration() if choice.given else None
     from softdepth import files as results
     from softdepth.board.device import Device
     from softdepth.board.link import Link
@@ -75,18 +56,8 @@ def board(
             device.check(wanted)
         chosen = found.config
         screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
-        pair = pairs.read(
-            left,
-            right,
-            dataset,
-            truth,
-            truth_scale,
-            chosen,
-            built=True,
-            bits=bits,
-            side_by_side=side_by_side,
-            top_bottom=top_bottom,
-        )
+        pair = source.read(chosen)
+        measure.check_fits(pair, chosen, built=True)
         with results.result_folder(output, stale=report.FILES) as folder:
             measurement = measure.measure(pair, chosen, "board", device)
             summary = report.summarise(pair, chosen, measurement)

@@ -10,6 +10,7 @@ from rich.table import Table
 
 from softdepth import screen
 from softdepth.cli import options
+from softdepth.cli.bundle import bundled
 from softdepth.spec.boards import BOARDS, Board, find_board
 from softdepth.spec.errors import InputError, ToolError
 
@@ -19,14 +20,10 @@ if TYPE_CHECKING:
 BoardName = Annotated[str, typer.Option("--board", metavar="NAME", help=f"One of {', '.join(BOARDS)}.")]
 
 
+@bundled
 def build(
     board: BoardName,
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
+    choice: options.Choice,
     seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Where nextpnr starts from.")] = 1,
     output: Annotated[
         Path | None,
@@ -41,15 +38,7 @@ def build(
     Without --preset or --config, the core is the one that docs/flow.md lists for the board.
     """
     chosen_board = find_board(board)
-    chosen = options.configuration(
-        preset,
-        config,
-        assignments,
-        lanes=lanes,
-        disparities=disparities,
-        operator=operator,
-        default=chosen_board.config,
-    )
+    chosen = choice.configuration(chosen_board.config)
     if program:
         _programmer(chosen_board)  # its absence is told before the minutes of a build
     folder = output or Path("out") / chosen_board.name

@@ -6,23 +6,13 @@ from typing import Annotated, Literal
 import typer
 
 from softdepth.cli import options, pairs, run
+from softdepth.cli.bundle import bundled
 
 
+@bundled
 def compare(
-    left: pairs.Left = None,
-    right: pairs.Right = None,
-    dataset: pairs.Dataset = None,
-    truth: pairs.GroundTruth = None,
-    truth_scale: pairs.GroundTruthScale = None,
-    bits: pairs.Bits = None,
-    side_by_side: pairs.SideBySide = False,
-    top_bottom: pairs.TopBottom = False,
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
+    source: pairs.Source,
+    choice: options.Choice,
     engine: Annotated[
         Literal["fixed", "rtl"],
         typer.Option("--engine", help="What stands for the hardware: its model, or the simulated gateware."),
@@ -32,27 +22,15 @@ def compare(
     ] = Path("out/compare"),
 ) -> None:
     """Compare the hardware with the float model, and sweep its number formats."""
-    chosen = options.configuration(
-        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
-    )
+    sweepable = choice.configuration()
     from softdepth import files as results
     from softdepth.run import measure
     from softdepth.studies.compare import comparison, sweep
 
-    sweep.check_sweepable(chosen)
-    pair = pairs.read(
-        left,
-        right,
-        dataset,
-        truth,
-        truth_scale,
-        chosen,
-        bits=bits,
-        side_by_side=side_by_side,
-        top_bottom=top_bottom,
-    )
+    sweep.check_sweepable(sweepable)
+    pair, chosen = source.read_for(choice)
     with results.result_folder(output, stale=comparison.FILES, last=comparison.LAST) as folder:
-        measurement = measure.measure(pair, chosen, engine)
+        measurement = measure.measure(pair, chosen, engine, also=measure.COMPARED)
         found = comparison.compare(pair, chosen, measurement)
         comparison.write(folder, pair, chosen, measurement, found)
     comparison.show(found)

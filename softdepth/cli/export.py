@@ -7,12 +7,14 @@ import typer
 
 from softdepth import screen
 from softdepth.cli import options
+from softdepth.cli.bundle import bundled
 from softdepth.spec.errors import InputError
 
 DESCRIPTION = ".json"
 """What the file that describes the core is called: as the Verilog file, with this for its suffix."""
 
 
+@bundled
 def export(
     output: Annotated[
         Path,
@@ -23,21 +25,14 @@ def export(
             help="Verilog file, beside which a .json describes the core; - is standard output.",
         ),
     ],
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
+    choice: options.Choice,
     name: Annotated[
         str,
         typer.Option("--name", metavar="NAME", help="Module, and what all its modules' names begin with."),
     ] = "softdepth_core",
 ) -> None:
     """Write the core as one self-contained Verilog file."""
-    chosen = options.configuration(
-        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
-    )
+    chosen = choice.configuration()
     on_screen = str(output) == "-"
     from softdepth.export.core_file import check_export, export_core
     from softdepth.files import check_writable, is_replaced, write_atomically

@@ -11,17 +11,14 @@ from rich.table import Table
 
 from softdepth import screen
 from softdepth.cli import options
+from softdepth.cli.bundle import bundled
 from softdepth.spec.config import MULTIPLIER_BITS, Config
 from softdepth.spec.errors import InputError
 
 
+@bundled
 def info(
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
+    choice: options.Choice,
     clock: Annotated[
         float, typer.Option("--clock", metavar="MHZ", help="Clock frequency that your device reaches.")
     ] = 100.0,
@@ -29,9 +26,7 @@ def info(
     height: Annotated[int, typer.Option("--height", metavar="N", help="Rows of a frame.")] = 480,
 ) -> None:
     """Show widths, latency, memory and speed of a configuration."""
-    chosen = options.configuration(
-        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
-    )
+    chosen = choice.configuration()
     _check(chosen, clock, width, height)
     table = Table("", "", box=None, show_header=False, title=f"{chosen.name} ({chosen.hash})")
     table.title_justify = "left"
@@ -94,11 +89,15 @@ def _asked() -> Iterator[None]:
 def _check(config: Config, clock: float, width: int, height: int) -> None:
     if not 0 < clock < float("inf"):
         raise InputError(f"--clock {clock:g} is not a frequency", "give MHz, for example --clock 100")
-    for key, value, low, high in (
-        ("width", width, config.min_width, config.max_width),
-        ("height", height, config.min_height, config.max_height),
-    ):
-        if not low <= value <= high:
-            raise InputError(
-                f"--{key} {value} does not fit the core", f"use {low} to {high}, or --set max_{key}"
-            )
+    if width < config.min_width or height < config.min_height:
+        raise InputError(
+            f"--width {width} --height {height} is too small a frame",
+            f"the smallest is --width {config.min_width} --height {config.min_height}",
+        )
+    frame = {"max_width": ("--width", width), "max_height": ("--height", height)}
+    exceeded = {key: given for key, given in frame.items() if given[1] > getattr(config, key)}
+    if exceeded:
+        raised = [part for key, (_, value) in exceeded.items() for part in ("--set", f"{key}={value}")]
+        limits = " and ".join(f"{key} = {getattr(config, key)}" for key in exceeded)
+        given = " ".join(f"{option} {value}" for option, value in exceeded.values())
+        raise InputError(f"{given} is more than {limits}", f"run: {options.command(*raised)}")

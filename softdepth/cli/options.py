@@ -1,5 +1,8 @@
 """The options by which every command chooses its configuration."""
 
+import shlex
+from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -8,52 +11,76 @@ import typer
 from softdepth.spec.config import OPERATORS, PRESETS, Config
 from softdepth.spec.errors import ConfigError
 
-Preset = Annotated[
-    str | None,
-    typer.Option("--preset", metavar="NAME", help=f"One of {', '.join(PRESETS)} (the default: paper)."),
-]
-ConfigFile = Annotated[
-    Path | None, typer.Option("--config", metavar="FILE", help="A TOML file in place of a preset.")
-]
-Assignments = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Change one key, e.g. criteria.0.window=5; repeatable."),
-]
-Lanes = Annotated[
-    int | None, typer.Option("--lanes", metavar="N", help="Candidates per clock. Short for --set lanes=N.")
-]
-Disparities = Annotated[
-    int | None,
-    typer.Option("--disparities", metavar="N", help="Candidates per pixel. Short for --set disparities=N."),
-]
-Operator = Annotated[
-    str | None,
-    typer.Option("--operator", metavar="NAME", help=f"One of {', '.join(OPERATORS)}. Short for --set."),
-]
+arguments: ContextVar[tuple[str, ...]] = ContextVar("arguments", default=())
+"""What the user has written behind ``softdepth``."""
 
 
-def configuration(
-    preset: str | None = None,
-    file: Path | None = None,
-    assignments: list[str] | None = None,
-    *,
-    lanes: int | None = None,
-    disparities: int | None = None,
-    operator: str | None = None,
-    default: Config | None = None,
-) -> Config:
-    """The configuration that these options choose; raises `ConfigError` where they contradict.
+def command(*more: str) -> str:
+    """What the user has written, with more options, to be written again."""
+    return f"softdepth {shlex.join((*arguments.get(), *more))}"
 
-    Without a preset or a file they change `default`, or else the preset `paper`.
-    """
-    if preset and file:
-        raise ConfigError(
-            f"--preset {preset} and --config {file} both name a configuration", "give one of the two"
-        )
-    if file:
-        base = Config.load(file)
-    else:
-        base = default if default and not preset else Config.preset(preset or "paper")
-    short = {"lanes": lanes, "disparities": disparities, "operator": operator}
-    changes = [*(assignments or []), *(f"{key}={value}" for key, value in short.items() if value is not None)]
-    return base.override(changes) if changes else base
+
+@dataclass(frozen=True)
+class Choice:
+    """How a configuration is chosen: a preset or a file, and changes to it."""
+
+    preset: Annotated[
+        str | None,
+        typer.Option("--preset", metavar="NAME", help=f"One of {', '.join(PRESETS)} (the default: paper)."),
+    ] = None
+    config: Annotated[
+        Path | None, typer.Option("--config", metavar="FILE", help="A TOML file in place of a preset.")
+    ] = None
+    assignments: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Change one key, e.g. criteria.0.window=5; repeatable."
+        ),
+    ] = None
+    lanes: Annotated[
+        int | None,
+        typer.Option("--lanes", metavar="N", help="Candidates per clock: --set lanes=N."),
+    ] = None
+    disparities: Annotated[
+        int | None,
+        typer.Option("--disparities", metavar="N", help="Candidates per pixel: --set disparities=N."),
+    ] = None
+    operator: Annotated[
+        str | None,
+        typer.Option("--operator", metavar="NAME", help=f"One of {', '.join(OPERATORS)}. Short for --set."),
+    ] = None
+
+    @property
+    def given(self) -> bool:
+        """Whether anything was chosen at all."""
+        return bool(self.preset or self.config or self.changes)
+
+    @property
+    def changes(self) -> list[str]:
+        """All changes as ``key=value``, the short forms last."""
+        short = {"lanes": self.lanes, "disparities": self.disparities, "operator": self.operator}
+        return [
+            *(self.assignments or []),
+            *(f"{key}={value}" for key, value in short.items() if value is not None),
+        ]
+
+    def configuration(self, default: Config | None = None) -> Config:
+        """The configuration that is chosen; without a preset or a file it is `default`, or `paper`, changed.
+
+        Raises `ConfigError` where the options contradict, or for what cannot be built.
+        """
+        if self.preset and self.config:
+            raise ConfigError(
+                f"--preset {self.preset} and --config {self.config} both name a configuration",
+                "give one of the two",
+            )
+        if self.config:
+            base = Config.load(self.config)
+        else:
+            base = default if default and not self.preset else Config.preset(self.preset or "paper")
+        return base.override(self.changes) if self.changes else base
+
+    def sets(self, key: str) -> bool:
+        """Whether the user has set `key`, on the command line or in the file."""
+        written = {change.partition("=")[0].strip() for change in self.changes}
+        return key in written or (self.config is not None and key in Config.keys_in(self.config))

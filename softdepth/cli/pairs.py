@@ -1,12 +1,13 @@
 """The options by which a command takes its stereo pair: two files, or a data set's name."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from softdepth import screen
+from softdepth.cli import options
 from softdepth.run import measure
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -18,80 +19,86 @@ if TYPE_CHECKING:
 PIXEL = "rgb8"
 """The pixels that a core takes."""
 
-Left = Annotated[
-    Path | None,
-    typer.Argument(metavar="LEFT", help="Left image, rectified; '-' is standard input."),
-]
-Right = Annotated[Path | None, typer.Argument(metavar="RIGHT", help="Right image, rectified.")]
-Dataset = Annotated[
-    str | None, typer.Option("--dataset", metavar="NAME", help="A known pair; see softdepth datasets.")
-]
-GroundTruth = Annotated[
-    Path | None,
-    typer.Option(
-        "--gt",
-        metavar="FILE",
-        help="Known disparity of the reference view: PFM, NPY, float TIFF or gray PNG.",
-    ),
-]
-GroundTruthScale = Annotated[
-    float | None,
-    typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity."),
-]
-Bits = Annotated[
-    int | None,
-    typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
-]
-SideBySide = Annotated[
-    bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
-]
-TopBottom = Annotated[
-    bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
-]
 
+@dataclass(frozen=True)
+class Source:
+    """Where a stereo pair comes from, and what is known of it."""
 
-def read(
-    left: Path | None,
-    right: Path | None,
-    dataset: str | None,
-    truth: Path | None,
-    scale: float | None,
-    config: Config,
-    *,
-    bits: int | None = None,
-    side_by_side: bool = False,
-    top_bottom: bool = False,
-    built: bool = False,
-) -> "StereoPair":
-    """The pair that these options choose, in the core's pixels; its notes go to the screen.
+    left: Annotated[
+        Path | None,
+        typer.Argument(metavar="LEFT", help="Left image, rectified; '-' is standard input."),
+    ] = None
+    right: Annotated[Path | None, typer.Argument(metavar="RIGHT", help="Right image, rectified.")] = None
+    dataset: Annotated[
+        str | None, typer.Option("--dataset", metavar="NAME", help="A known pair; see softdepth datasets.")
+    ] = None
+    truth: Annotated[
+        Path | None,
+        typer.Option(
+            "--gt",
+            metavar="FILE",
+            help="Known disparity of the reference view: PFM, NPY, float TIFF or gray PNG.",
+        ),
+    ] = None
+    truth_scale: Annotated[
+        float | None, typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity.")
+    ] = None
+    bits: Annotated[
+        int | None,
+        typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
+    ] = None
+    side_by_side: Annotated[
+        bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
+    ] = False
+    top_bottom: Annotated[
+        bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
+    ] = False
 
-    `built` tells that the core is on a board, so that no option changes it any more.
+    def read(self, config: Config) -> "StereoPair":
+        """The pair, in the core's pixels; its notes go to the screen.
 
-    Raises `InputError` where the options contradict, a file is unusable, or the core cannot take the pair.
-    """
-    if scale is not None and truth is None:
-        raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
-    if side_by_side and top_bottom:
-        raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
-    if dataset is None:
-        joined = "side-by-side" if side_by_side else "top-bottom" if top_bottom else None
-        pair = _images(left, right, joined, bits)
-        if truth is not None:
-            pair = _with_truth(pair, (left, right), truth, scale, config)
-    elif left or truth or bits is not None or side_by_side or top_bottom:
-        raise InputError(
-            f"--dataset {dataset} brings its own images and truth",
-            "leave out the files and what is said about them, or --dataset",
+        Raises `InputError` where the options contradict, or a file is unusable.
+        """
+        scale, truth = self.truth_scale, self.truth
+        if scale is not None and truth is None:
+            raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
+        if self.side_by_side and self.top_bottom:
+            raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
+        if self.dataset is None:
+            joined = "side-by-side" if self.side_by_side else "top-bottom" if self.top_bottom else None
+            pair = _images(self.left, self.right, joined, self.bits)
+            if truth is not None:
+                pair = _with_truth(pair, (self.left, self.right), truth, scale, config)
+        elif self.left or truth or self.bits is not None or self.side_by_side or self.top_bottom:
+            raise InputError(
+                f"--dataset {self.dataset} brings its own images and truth",
+                "leave out the files and what is said about them, or --dataset",
+            )
+        else:
+            from softdepth.golden.data import datasets
+
+            pair = datasets.load(self.dataset, reference=config.reference)
+        pair = pair.as_format(PIXEL)
+        for text in pair.notes:
+            screen.note(f"note: {text}")
+        return pair
+
+    def read_for(self, choice: options.Choice) -> "tuple[StereoPair, Config]":
+        """The pair, and the configuration that is chosen with a core as large as its images.
+
+        What the user has set of ``max_width`` and ``max_height`` stays. Raises `InputError` as `read` does,
+        and where the core cannot take the pair.
+        """
+        config = choice.configuration()
+        pair = self.read(config)
+        fitted = measure.as_large_as(
+            pair, config, keys=[key for key in measure.LIMITS if not choice.sets(key)]
         )
-    else:
-        from softdepth.golden.data import datasets
-
-        pair = datasets.load(dataset, reference=config.reference)
-    pair = pair.as_format(PIXEL)
-    measure.check_fits(pair, config, built=built)
-    for text in pair.notes:
-        screen.note(f"note: {text}")
-    return pair
+        if fitted != config:
+            size = f"{fitted.max_width}x{fitted.max_height}"
+            screen.note(f"note: the core is built for {size}, as large as the images")
+        measure.check_fits(pair, fitted, again=options.command)
+        return pair, fitted
 
 
 def _images(left: Path | None, right: Path | None, joined: "Joined | None", bits: int | None) -> "StereoPair":

@@ -7,61 +7,66 @@ import typer
 
 from softdepth import ending, screen
 from softdepth.cli import options, pairs
+from softdepth.cli.bundle import bundled
 from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
     from softdepth.golden.data.pair import StereoPair
-    from softdepth.run.measure import Measurement
+    from softdepth.run.measure import Engine, Measurement
+
+ADDED: "tuple[Engine, ...]" = ("fixed", "float", "sad")
+"""What a result can be compared with."""
+
+Also = Annotated[
+    str | None,
+    typer.Option(
+        "--also",
+        metavar="LIST",
+        help="Compute these as well, e.g. float,sad [default: float,sad with rtl, none with a model].",
+    ),
+]
 
 
+@bundled
 def run(
-    left: pairs.Left = None,
-    right: pairs.Right = None,
-    dataset: pairs.Dataset = None,
-    truth: pairs.GroundTruth = None,
-    truth_scale: pairs.GroundTruthScale = None,
-    bits: pairs.Bits = None,
-    side_by_side: pairs.SideBySide = False,
-    top_bottom: pairs.TopBottom = False,
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
-    operator: options.Operator = None,
+    source: pairs.Source,
+    choice: options.Choice,
     engine: Annotated[
         Literal["rtl", "fixed", "float"],
         typer.Option("--engine", help="What computes the result: simulated gateware, or a model of it."),
     ] = "rtl",
+    also: Also = None,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of pictures, maps and report.")
     ] = Path("out"),
 ) -> None:
     """Compute the depth of a stereo pair and report what it took."""
-    chosen = options.configuration(
-        preset, config, assignments, lanes=lanes, disparities=disparities, operator=operator
-    )
+    further = compared(also)
     from softdepth import files as results
     from softdepth.run import measure, report
 
-    pair = pairs.read(
-        left,
-        right,
-        dataset,
-        truth,
-        truth_scale,
-        chosen,
-        bits=bits,
-        side_by_side=side_by_side,
-        top_bottom=top_bottom,
-    )
+    pair, chosen = source.read_for(choice)
     with results.result_folder(output, stale=report.FILES) as folder:
-        measurement = measure.measure(pair, chosen, engine)
+        measurement = measure.measure(pair, chosen, engine, also=further)
         summary = report.summarise(pair, chosen, measurement)
         report.write(folder, pair, chosen, measurement, summary)
     report.show(summary)
     print(f"results: {output}")
     fail_on_mismatch(pair, chosen, measurement)
+
+
+def compared(also: str | None) -> "tuple[Engine, ...] | None":
+    """The engines that ``--also`` lists, or None where it is left out; raises `InputError` for others."""
+    if also is None:
+        return None
+    found: list[Engine] = []
+    for name in filter(None, also.split(",")):
+        known: list[Engine] = [each for each in ADDED if each == name.strip()]
+        if not known:
+            raise InputError(f"--also {also} names '{name}'", f"use some of {', '.join(ADDED)}")
+        found += known
+    return tuple(found)
 
 
 def fail_on_mismatch(pair: "StereoPair", config: Config, measurement: "Measurement") -> None:

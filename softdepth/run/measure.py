@@ -1,6 +1,7 @@
 """One pair through the gateware and the models: what `softdepth run` measures."""
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
@@ -18,13 +19,22 @@ Engine = Literal["rtl", "fixed", "float", "sad", "board"]
 """``board`` and ``rtl`` are the gateware, in an FPGA and simulated. ``sad`` is the baseline: plain 3x3 SAD
 with the same candidates and view, in fixed point."""
 
-MEASURED: dict[str, tuple[Engine, ...]] = {
-    "board": ("board", "fixed", "float", "sad"),
-    "rtl": ("rtl", "fixed", "float", "sad"),
-    "fixed": ("fixed", "float", "sad"),
-    "float": ("float", "sad"),
+LIMITS = ("max_width", "max_height")
+"""The keys that say how large images a core can take."""
+SMALLEST = 8
+"""The least that a limit may be."""
+
+NEEDED: dict[Engine, tuple[Engine, ...]] = {
+    "board": ("board", "fixed"),
+    "rtl": ("rtl", "fixed"),
+    "fixed": ("fixed",),
+    "float": ("float",),
+    "sad": ("sad",),
 }
-"""What a run with each ``--engine`` measures: itself, and what it is worth comparing with."""
+"""What a run of each engine computes: itself, and for gateware the model it has to agree with."""
+
+COMPARED: tuple[Engine, ...] = ("float", "sad")
+"""What gateware is compared with unless told otherwise; a model is compared with what is asked for."""
 
 _TITLES: dict[Engine, str] = {
     "board": "gateware, on the board",
@@ -75,18 +85,33 @@ class Measurement:
         return mismatches([self.maps["fixed"]], [self.gateware])
 
 
-def check_fits(pair: "StereoPair", config: Config, *, built: bool = False) -> None:
-    """Raise `InputError` unless a core of this configuration, perhaps a `built` one, can take the pair."""
+def as_large_as(pair: "StereoPair", config: Config, keys: Sequence[str] = LIMITS) -> Config:
+    """`config` with the limits called `keys` as large as the images, so far as a core can be that small."""
+    sizes = {
+        "max_width": max(pair.width, config.min_width, SMALLEST),
+        "max_height": max(pair.height, config.min_height, SMALLEST),
+    }
+    return config.override([f"{key}={sizes[key]}" for key in keys])
+
+
+def check_fits(
+    pair: "StereoPair", config: Config, *, again: Callable[..., str] | None = None, built: bool = False
+) -> None:
+    """Raise `InputError` unless a core of this configuration, perhaps a `built` one, can take the pair.
+
+    All limits that are exceeded are named at once, with what raises them; `again` makes of such options the
+    command that works.
+    """
     size = f"'{pair.name}' is {pair.width}x{pair.height}"
-    for key, have, limit in (
-        ("max_width", pair.width, config.max_width),
-        ("max_height", pair.height, config.max_height),
-    ):
-        if have > limit:
-            remedy = f"use --set {key}={have}"
-            if built:
-                remedy = f"give smaller images, or build and load a core with --set {key}={have}"
-            raise InputError(f"{size}, but the core is built for {key} = {limit}", remedy)
+    have = {"max_width": pair.width, "max_height": pair.height}
+    exceeded = [key for key in LIMITS if have[key] > getattr(config, key)]
+    if exceeded:
+        limits = " and ".join(f"{key} = {getattr(config, key)}" for key in exceeded)
+        changes = [part for key in exceeded for part in ("--set", f"{key}={have[key]}")]
+        remedy = f"use {' '.join(changes)}" if again is None else f"run: {again(*changes)}"
+        if built:
+            remedy = f"give smaller images, or build and load a core with {' '.join(changes)}"
+        raise InputError(f"{size}, but the core is built for {limits}", remedy)
     if pair.width < config.min_width or pair.height < config.min_height:
         raise InputError(
             f"{size}, and the smallest frame is {config.min_width}x{config.min_height}",
@@ -102,15 +127,25 @@ def baseline(config: Config) -> Config:
 
 
 def measure(
-    pair: "StereoPair", config: Config, engine: Engine, device: "Device | None" = None
+    pair: "StereoPair",
+    config: Config,
+    engine: Engine,
+    device: "Device | None" = None,
+    also: Sequence[Engine] | None = None,
 ) -> Measurement:
-    """Run `engine` and the engines it is compared with, showing progress.
+    """Run `engine`, what it has to agree with, and what it is compared with, showing progress.
 
-    The gateware goes first: a missing simulator ends the run before the models take their time. `device` is
-    what the engine ``board`` runs on.
+    The gateware goes first: a missing simulator ends the run before the models take their time.
+
+    Parameters
+    ----------
+    device : what the engine ``board`` runs on.
+    also : further models; for gateware by default `COMPARED`, for a model none.
     """
     measurement = Measurement(engine)
-    for each in MEASURED[engine]:
+    if also is None:
+        also = COMPARED if engine in ("board", "rtl") else ()
+    for each in dict.fromkeys((*NEEDED[engine], *also)):
         if each == "board" and device is not None:
             _run_board(pair, device, measurement)
         elif each == "rtl":

@@ -29,9 +29,18 @@ class Settings(Frozen):
 
     @classmethod
     def load(cls, path: Path) -> Self:
-        """Read a TOML file; keys left out keep the defaults of the `paper` preset."""
+        """Read a TOML file; keys left out have the defaults of the class, which are no preset's."""
+        return cls.from_dict({"name": path.stem, **cls._read(path)})
+
+    @classmethod
+    def keys_in(cls, path: Path) -> set[str]:
+        """The keys that a TOML file sets, wherever `load` can read it."""
+        return set(cls._read(path))
+
+    @staticmethod
+    def _read(path: Path) -> dict[str, Any]:
         try:
-            return cls.from_dict({"name": path.stem, **tomllib.loads(path.read_text())})
+            return tomllib.loads(path.read_text())
         except (OSError, UnicodeDecodeError) as error:
             raise ConfigError(f"cannot read configuration '{path}'", "give a readable TOML file") from error
         except tomllib.TOMLDecodeError as error:

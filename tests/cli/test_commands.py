@@ -1,6 +1,7 @@
 """Export, info, the lists, and the command line as a whole."""
 
 import re
+import shlex
 import subprocess
 import sys
 import tomllib
@@ -128,6 +129,13 @@ def test_info_refuses_what_does_not_fit(softdepth, arguments):
     outcome = softdepth("info", *arguments)
     assert outcome.code == 2
     assert f"{arguments[0]} {arguments[1]} " in outcome.error
+
+
+def test_info_names_all_limits_and_the_command_that_works(softdepth):
+    outcome = softdepth("info", "--width", 1500, "--height", 1090)
+    assert "--width 1500 --height 1090 is more than max_width = 1280 and max_height = 1080" in outcome.error
+    command = shlex.split(outcome.error.partition("; run: softdepth ")[2])
+    assert "1500x1090" in softdepth(*command).out
 
 
 def test_lists(softdepth):

@@ -23,11 +23,13 @@ FILES = {
     "config.toml",
     "report.json",
 }
+IMAGES = ("max_width=48", "max_height=30")
+"""The core is as large as the images."""
 
 
 def config(**changes: object) -> Config:
     return Config.preset("paper").override(
-        ["disparities=16", "lanes=4", *(f"{k}={v}" for k, v in changes.items())]
+        ["disparities=16", "lanes=4", *IMAGES, *(f"{k}={v}" for k, v in changes.items())]
     )
 
 
@@ -49,7 +51,8 @@ def test_maps_are_the_models(softdepth, files, tmp_path, engine, model):
 def test_report_scores_every_measured_engine(softdepth, files, tmp_path):
     out = tmp_path / "out"
     outcome = softdepth(
-        "run", files.left, files.right, "--gt", files.truth, *SMALL, "--engine", "fixed", "-o", out
+        *("run", files.left, files.right, "--gt", files.truth, *SMALL),
+        *("--engine", "fixed", "--also", "float,sad", "-o", out),
     )
     assert outcome.code == 0, outcome.err
     report = json.loads((out / "report.json").read_text())
@@ -77,7 +80,7 @@ def test_what_an_engine_does_not_measure_is_null(softdepth, files, tmp_path):
     report = json.loads((tmp_path / "report.json").read_text())
     for key in ("rtl_mismatches", "cycles_per_pixel", "sim_pixels_per_second"):
         assert report[key] is None
-    for engine in ("rtl", "fixed"):
+    for engine in ("rtl", "fixed", "sad", "board"):
         assert set(report["metrics"][engine].values()) == {None}
         assert report["metrics"][engine].keys() == report["metrics"]["float"].keys()
     assert report["metrics"]["float"]["rmse"] is not None
@@ -136,3 +139,54 @@ def test_truth_scale(softdepth, files, tmp_path):
         json.loads((tmp_path / s / "report.json").read_text())["metrics"]["float"] for s in ("1", "2")
     )
     assert two["mae"] > one["mae"]
+
+
+@pytest.mark.parametrize(
+    ("engine", "also", "computed"),
+    [
+        ("fixed", (), {"fixed"}),
+        ("float", (), {"float"}),
+        ("fixed", ("--also", "float,sad"), {"fixed", "float", "sad"}),
+        ("fixed", ("--also", "sad, fixed"), {"fixed", "sad"}),
+        ("float", ("--also", "fixed"), {"float", "fixed"}),
+    ],
+)
+def test_what_is_asked_for_is_computed_and_nothing_else(softdepth, files, tmp_path, engine, also, computed):
+    outcome = softdepth("run", files.left, files.right, *SMALL, "--engine", engine, *also, "-o", tmp_path)
+    assert outcome.code == 0, outcome.err
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert {name for name, seconds in report["seconds"].items() if seconds is not None} == computed
+    assert report["engine"] == engine
+
+
+@pytest.mark.parametrize("width", [48, 1300])
+def test_the_core_is_as_large_as_the_images(softdepth, tmp_path, width):
+    pair = ("--dataset", f"synthetic:random@{width}x1100x4" if width > 48 else "synthetic:random@48x30x4")
+    few = ("--preset", "sad", "--disparities", 4, "--lanes", 4, "--engine", "fixed")
+    outcome = softdepth("run", *pair, *few, "-o", tmp_path)
+    assert outcome.code == 0, outcome.err
+    written = Config.load(tmp_path / "config.toml")
+    height = 1100 if width > 48 else 30
+    assert (written.max_width, written.max_height) == (width, height)
+    assert f"note: the core is built for {width}x{height}, as large as the images" in outcome.err
+
+
+def test_what_is_set_stays(softdepth, files, tmp_path):
+    core = tmp_path / "core.toml"
+    core.write_text("max_height = 64\n")
+    arguments = (
+        "--config",
+        core,
+        "--set",
+        "max_width=100",
+        *SMALL,
+        "--engine",
+        "fixed",
+        "-o",
+        tmp_path / "out",
+    )
+    outcome = softdepth("run", files.left, files.right, *arguments)
+    assert outcome.code == 0, outcome.err
+    written = Config.load(tmp_path / "out" / "config.toml")
+    assert (written.max_width, written.max_height) == (100, 64)
+    assert "as large as the images" not in outcome.err

@@ -1,6 +1,7 @@
 """Every mistake of a user's ends in one line with a remedy, before long work, and writes nothing."""
 
 import os
+import shlex
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,23 @@ def test_larger_than_the_core(softdepth, files, out, key, limit):
     error = refused(softdepth("run", files.left, files.right, *SMALL, *change, "-o", out), out)
     assert f"{key} = {limit}" in error
     assert f"--set {key}={limit + 1}" in error
+
+
+def test_all_limits_at_once_with_the_command_that_works(softdepth, files, tmp_path):
+    out = tmp_path / "out"
+    arguments = ("--set", "max_width=47", "--set", "max_height=29", "-o", out)
+    outcome = softdepth("run", files.left, files.right, *SMALL, *arguments)
+    assert outcome.code == 2
+    assert "max_width = 47 and max_height = 29" in outcome.error
+    command = shlex.split(outcome.error.partition("; run: softdepth ")[2])
+    assert softdepth(*command).code == 0
+    assert (out / "report.json").exists()
+
+
+@pytest.mark.parametrize("also", ["gpu", "float,rtl"])
+def test_what_cannot_be_added(softdepth, files, out, also):
+    error = refused(softdepth("run", files.left, files.right, *SMALL, "--also", also, "-o", out), out)
+    assert f"--also {also}" in error
 
 
 def test_smaller_than_the_windows(softdepth, files, out):

@@ -2,6 +2,7 @@
 
 import io
 
+import pytest
 from rich.console import Console
 
 from softdepth import screen
@@ -13,7 +14,26 @@ def test_plain_lines_where_there_is_no_terminal(capsys):
             advance(done)
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "gateware ..."
-    assert lines[1:] == [f"gateware: {n} of 200 pixels ({n // 2} %)" for n in (40, 80, 120, 160, 200)]
+    told, last = lines[1:5], lines[5]
+    for n, line in zip((40, 80, 120, 160), told, strict=True):
+        assert line == f"gateware: {n} of 200 pixels ({n // 2} %), about 1 s left"
+    assert last == "gateware: 200 of 200 pixels (100 %)"
+
+
+def test_what_is_left_follows_from_what_it_took(capsys, monkeypatch):
+    now = iter([0.0, 60.0])
+    monkeypatch.setattr(screen.time, "monotonic", lambda: next(now))
+    with screen.progress("gateware", 200) as advance:
+        advance(50)
+    assert capsys.readouterr().err.endswith("(25 %), about 3 min left\n")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.2, "1 s"), (119, "119 s"), (150, "2 min"), (7200, "2 h 0 min"), (9000, "2 h 30 min")],
+)
+def test_durations(seconds, text):
+    assert screen.duration(seconds) == text
 
 
 def test_a_bar_on_a_terminal(monkeypatch):

@@ -4,15 +4,17 @@
 """
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from softdepth import screen
 from softdepth.run import report
-from softdepth.run.measure import Measurement
+from softdepth.run.measure import Engine, Measurement
 from softdepth.spec.config import Config
 from softdepth.studies.compare import tables
 from softdepth.studies.compare.agreement import Agreement, agreement
-from softdepth.studies.compare.sweep import Sweep, sweep
+from softdepth.studies.compare.sweep import LABEL_BITS, Sweep, formats, sweep
 
 if TYPE_CHECKING:
     from softdepth.golden.data.pair import StereoPair
@@ -41,12 +43,19 @@ def compare(pair: "StereoPair", config: Config, measurement: Measurement) -> Com
     Raises `InputError` for images without a result.
     """
     paper = measurement.maps["float"]
+    took = measurement.seconds
+    screen.note(f"note: the number formats will take {screen.duration(estimate(config, took))} or so")
     found = agreement(measurement.result, paper, pair.truth)
     return Comparison(
         **report.summarise(pair, config, measurement).model_dump(),
         agreement=found,
         sweep=sweep(pair, config, paper),
     )
+
+
+def estimate(config: Config, seconds: Mapping[Engine, float]) -> float:
+    """How many seconds the sweep of `config` will take, from what the two models have taken."""
+    return seconds["fixed"] * len(formats(config)) + seconds["float"] * len(LABEL_BITS)
 
 
 def write(

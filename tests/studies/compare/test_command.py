@@ -1,6 +1,7 @@
 """``softdepth compare``: its files, its figures, and what it refuses."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from softdepth.run import measure
 from softdepth.spec.config import Config
 from softdepth.studies.compare import comparison
 from softdepth.studies.compare.agreement import agreement
-from softdepth.studies.compare.comparison import FILES, Comparison
+from softdepth.studies.compare.comparison import FILES, Comparison, estimate
+from softdepth.studies.compare.sweep import formats
 from tests.studies.compare.conftest import point
 
 SMALL = ("--disparities", 16, "--lanes", 4)
@@ -36,7 +38,7 @@ def test_figures_are_those_of_the_models(softdepth, files, config, tmp_path, ref
     assert {file.name for file in out.iterdir()} == {*FILES, "compare.json"}
     found = Comparison.model_validate_json((out / "compare.json").read_text())
     pair, truth = read_pair(files.left, files.right), read_truth(files.truth, view=reference)
-    config = config.override([f"reference={reference}"])
+    config = config.override([f"reference={reference}", "max_width=48", "max_height=30"])
     fixed, paper = (model.disparity(pair.left, pair.right, config) for model in (fixed_model, float_model))
     assert found.agreement == agreement(fixed, paper, truth)
     assert point(found.sweep, 8, 12).to_float == found.agreement
@@ -47,6 +49,7 @@ def test_figures_are_those_of_the_models(softdepth, files, config, tmp_path, ref
     assert f"{found.agreement.differ:.2f} % of {found.agreement.pixels} pixels differ" in outcome.out
     assert "label 2^12: " in outcome.out
     assert "2 number formats" in outcome.err
+    assert re.search(r"^note: the number formats will take \d+ (s|min) or so$", outcome.err, re.MULTILINE)
     row = f"| 8 | {found.agreement.rmse:.2f} |"
     assert row in (out / "compare.md").read_text()
 
@@ -114,3 +117,9 @@ def test_the_simulated_gateware_gives_the_same_comparison(softdepth, files, tmp_
     assert found["rtl"]["rtl_mismatches"] == 0
     assert found["rtl"]["agreement"] == found["fixed"]["agreement"]
     assert found["rtl"]["sweep"] == found["fixed"]["sweep"]
+
+
+def test_the_estimate_counts_every_run(config):
+    labels = len({each.criteria[0].label_bits for each in formats(config)})
+    seconds = {"fixed": 2.0, "float": 10.0}
+    assert estimate(config, seconds) == 2 * len(formats(config)) + 10 * labels

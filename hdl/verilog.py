@@ -29,6 +29,7 @@ opt_merge
 opt_clean -purge
 memory_collect
 opt_clean -purge
+hierarchy -top {top}
 write_verilog -noattr -noparallelcase
 """
 """Choices become expressions: `always @*` that nothing wakes at time 0 stays X in SystemVerilog."""
@@ -36,6 +37,7 @@ write_verilog -noattr -noparallelcase
 _PRAGMAS = {
     "WIDTH": "operands are extended to the width of the result, as Verilog does by itself",
     "CASEOVERLAP": "choices of one bit each, of which one is set",
+    "SYMRSVDWORD": "inner names that C++ has too, which Verilator changes by itself",
 }
 """What Verilator warns of by default and is meant, with the reason."""
 
@@ -50,7 +52,7 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
     """
     component = StereoCore(design) if isinstance(design, Config) else design
     rtlil = without_zeros(share(to_rtlil(component, name), smallest=math.inf))
-    text = plain_names(_written(rtlil))
+    text = plain_names(_written(rtlil, name))
     order = [CLOCK, RESET, *(port.name for port in ports_of(component))]
     text = re.sub(
         rf"^module {name}\((.*?)\);$",
@@ -63,10 +65,10 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
     return "\n".join([*off, "", collisions_waived(ready_to_simulate(text)), *on, ""])
 
 
-def _written(rtlil: str) -> str:
-    """RTLIL as Verilog; raises `ToolError` where yosys fails."""
+def _written(rtlil: str, top: str) -> str:
+    """RTLIL as Verilog, all modules in use; raises `ToolError` where yosys fails."""
     done = subprocess.run(
-        _YOSYS, input=_SCRIPT.format(rtlil=rtlil), capture_output=True, text=True, check=False
+        _YOSYS, input=_SCRIPT.format(rtlil=rtlil, top=top), capture_output=True, text=True, check=False
     )
     if done.returncode:
         said = done.stderr.strip().splitlines() or ["it left no message"]

@@ -1,11 +1,13 @@
 """Export, info, the lists, and the command line as a whole."""
 
+import json
 import re
 import shlex
 import subprocess
 import sys
 import tomllib
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 
@@ -174,3 +176,27 @@ def test_ctrl_c_is_no_error(softdepth, monkeypatch):
     outcome = softdepth("info")
     assert outcome.code == 130
     assert outcome.err == ""
+
+
+def test_export_by_another_name_with_its_description(softdepth, tmp_path):
+    path = tmp_path / "mine.v"
+    assert softdepth("export", *SMALL, "--name", "mine", "-o", path).code == 0
+    assert "module mine(" in path.read_text()
+    assert json.loads((tmp_path / "mine.json").read_text())["module"] == "mine"
+    outcome = softdepth("export", *SMALL, "--name", "no-name", "-o", tmp_path / "other.v")
+    assert outcome.code == 2
+    assert "--name 'no-name'" in outcome.error
+    assert softdepth("export", *SMALL, "-o", tmp_path / "core.json").code == 2
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["mine.json", "mine.v"]
+
+
+def test_export_to_a_device_leaves_nothing_beside_it(softdepth):
+    assert softdepth("export", *SMALL, "-o", "/dev/null").code == 0
+    assert not Path("/dev/null.json").exists()
+
+
+def test_export_of_the_right_view_names_the_way_to_it(softdepth, tmp_path):
+    outcome = softdepth("export", *SMALL, "--set", "reference=right", "-o", tmp_path / "core.v")
+    assert outcome.code == 2
+    assert "last pixel first" in outcome.error
+    assert not list(tmp_path.iterdir())

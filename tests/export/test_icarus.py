@@ -1,0 +1,116 @@
+"""An exported core in Icarus, against the fixed model: from time 0 on, under both standards, without an X."""
+
+import re
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from softdepth.cli.info import facts
+from softdepth.export.core_file import export_core
+from softdepth.golden.fixed_model import disparity
+from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
+from softdepth.spec.config import Config
+from tests.export.conftest import SIZE, SMALL, exported
+from tests.hdl.test_core import images
+from tests.support.icarus import Seen, needs_icarus, run_icarus
+
+pytestmark = needs_icarus
+
+Pair = tuple[np.ndarray, np.ndarray]
+
+
+def pairs_for(config: Config) -> list[Pair]:
+    width, height = config.min_width + 5, config.min_height + 1
+    return [images(1, width, height), images(2, width, height, 3)]
+
+
+def check(seen: Seen, pairs: list[Pair], config: Config) -> None:
+    """Every pixel of every frame; no X, and nothing taken in reset."""
+    assert not seen.complaints
+    frames = split_frames(unpack_results(np.array(seen.payloads, np.uint64), config))
+    assert len(frames) == len(pairs)
+    for found, pair in zip(to_maps(frames), pairs, strict=True):
+        expected = disparity(*pair, config)
+        assert np.array_equal(found.disparity, expected.disparity)
+        assert np.array_equal(found.code, expected.code)
+    assert not any(frame["damaged"].any() for frame in frames)
+    assert seen.status == 0
+
+
+def pixels(pairs: list[Pair]) -> list[int]:
+    return list(chain.from_iterable(pack_frame(*pair).tolist() for pair in pairs))
+
+
+@pytest.mark.parametrize(("standard", "reset_clocks"), [("-g2005", 1), ("-g2012", 1), ("-g2012", 40)])
+@pytest.mark.parametrize("name", SMALL)
+def test_frames_equal_the_fixed_model(name: str, standard: str, reset_clocks: int, tmp_path: Path) -> None:
+    """Pixels are on offer from time 0 on, in reset as well: the core takes none of them then."""
+    config, pairs = SMALL[name], pairs_for(SMALL[name])
+    text = exported(name).verilog
+    seen = run_icarus(
+        text,
+        pixels(pairs),
+        tmp_path,
+        standard=standard,
+        reset_clocks=reset_clocks,
+        stalls=reset_clocks > 1,
+    )
+    check(seen, pairs, config)
+    assert seen.taken[0] >= reset_clocks
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_what_memories_hold_at_first_never_shows(name: str, tmp_path: Path) -> None:
+    """Synthesis is told of no initial words: with any, results are the same."""
+    config, pairs = SMALL[name], pairs_for(SMALL[name])
+    text, changed = re.subn(r"(\w+\[word\]) = \d+'h0;", r"\1 = {16{$random}};", exported(name).verilog)
+    assert changed > 1
+    check(run_icarus(text, pixels(pairs), tmp_path), pairs, config)
+
+
+def test_the_bench_sees_an_unknown_bit_and_a_lost_pixel(tmp_path: Path) -> None:
+    config, pairs = SMALL["sad"], pairs_for(SMALL["sad"])
+    text = exported("sad").verilog
+    unknown = re.sub(r"(storage\[\w+\] <= )[^;]*;", r"\1'bx;", text)  # the result FIFO's memory
+    assert unknown != text
+    assert any(line.startswith("X") for line in run_icarus(unknown, pixels(pairs), tmp_path).complaints)
+    always_ready = re.sub(r"^  assign i_ready = .*;$", "  assign i_ready = 1'b1;", text, flags=re.MULTILINE)
+    assert always_ready != text
+    seen = run_icarus(always_ready, pixels(pairs), tmp_path, reset_clocks=3)
+    assert any(line.startswith("W") for line in seen.complaints)
+    with pytest.raises(AssertionError):
+        check(seen, pairs, config)
+
+
+LANES = (1, 2, 4, 16)
+
+
+@pytest.mark.parametrize("lanes", LANES)
+@pytest.mark.parametrize(("preset", "disparities"), [("sad", 16), ("lite", 16)])
+def test_latencies_are_as_stated(preset: str, disparities: int, lanes: int, tmp_path: Path) -> None:
+    """By head, JSON and `info` alike: from the last pixel that a result needs, in both conditions."""
+    config = Config.preset(preset).override([*SIZE, f"disparities={disparities}", f"lanes={lanes}"])
+    core = export_core(config)
+    pair = images(1, config.min_width + 3, config.min_height + 1)
+    width = pair[0].shape[1]
+    behind = config.reach_rows * width + config.reach_right
+
+    def latencies(gap: int) -> set[int]:
+        seen = run_icarus(core.verilog, pixels([pair]), tmp_path, gap=gap)
+        assert not seen.complaints
+        # The queue has filled when the first of these pixels comes.
+        return {seen.given[k] - seen.taken[k + behind] for k in range(len(seen.taken) - behind)}
+
+    (idle,), (full,) = latencies(4 * config.steps), latencies(0)
+    (stated,) = re.findall(
+        r"can be taken (\d+) clocks after that pixel is, where pixels come slowly, and (\d+) clocks after it",
+        re.sub(r"\n//\s+", " ", core.verilog),
+    )
+    assert stated == (str(idle), str(full))
+    assert f'"latency": {idle},' in core.json
+    assert f'"latency_at_full_rate": {full},' in core.json
+    found = facts(config, 100, 64, 48)
+    assert found["latency"].startswith(f"{idle} clocks after")
+    assert found["latency at full rate"].startswith(f"{full} clocks where")

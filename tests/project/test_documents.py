@@ -7,7 +7,7 @@ import pytest
 from pydantic import BaseModel
 
 from softdepth.cli.app import app
-from softdepth.run.report import FILES, Accuracy, Report
+from softdepth.run.report import FILES, Accuracy, Report, Scored
 from softdepth.spec.config import PRESETS, Census, Compensation, Config, Gradient, Post, Sad
 
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
@@ -64,7 +64,7 @@ def test_the_example_configuration_is_valid(project, tmp_path):
 
 def test_every_report_key_and_file_is_documented(project):
     keys = table_keys((project / "docs" / "report.md").read_text())
-    assert keys == {*Report.model_fields, *Accuracy.model_fields, *FILES, "report.json"}
+    assert keys == {*Report.model_fields, *Accuracy.model_fields, *Scored.model_fields, *FILES, "report.json"}
 
 
 def test_every_command_is_documented(project):

@@ -2,6 +2,7 @@
 
 import ast
 import tomllib
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -46,3 +47,14 @@ def test_every_package_is_declared(project):
             inner = init.parent.relative_to(project / top).parts
             found.add(".".join([name, *inner]))
     assert declared == found
+
+
+def test_models_import_in_one_direction(project):
+    """No module of the models leads back to itself, in imports for type checking neither."""
+    modules = {}
+    for path in (project / "golden").rglob("*.py"):
+        parts = path.relative_to(project / "golden").with_suffix("").parts
+        modules[".".join(("softdepth", "golden", *(p for p in parts if p != "__init__")))] = path
+    graph = {name: (imports(path) & modules.keys()) - {name} for name, path in modules.items()}
+    order = list(TopologicalSorter(graph).static_order())  # raises CycleError with the way round
+    assert order.index("softdepth.golden.data.truth") < order.index("softdepth.golden.data.images")

@@ -1,6 +1,5 @@
 """Where builds are kept: one folder each, with a lock and a log beside it, and a bound on them all."""
 
-import fcntl
 import os
 import shutil
 import tempfile
@@ -8,6 +7,8 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from filelock import FileLock, Timeout
 
 from softdepth.spec.errors import ToolError
 
@@ -25,18 +26,20 @@ def locked(folder: Path) -> Iterator[None]:
     Raises `ToolError` where the cache cannot be written.
     """
     path = _lock(folder)
+    lock = FileLock(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        lock = path.open("w")
-        os.utime(lock.fileno())
-    except OSError as error:
+        lock.acquire()
+    except (OSError, NotImplementedError) as error:  # the latter where a file system has no locks
         raise ToolError(
-            f"cannot write the cache '{path.parent}': {error.strerror}",
+            f"cannot write the cache '{path.parent}': {getattr(error, 'strerror', None) or error}",
             "set SOFTDEPTH_CACHE to a folder you may write to",
         ) from error
-    with lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    try:
+        os.utime(path)
         yield
+    finally:
+        lock.release()
 
 
 def keep(folder: Path, files: Iterable[Path]) -> None:
@@ -77,8 +80,9 @@ def make_room(place: Path) -> None:
 def _remove(folder: Path, oldest_recent: float) -> bool:
     """Remove a build, unless another process has taken it up by now."""
     path = _lock(folder)
-    with suppress(OSError), path.open() as lock:  # it is locked, or was removed
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    if not path.exists():
+        return False  # it was removed by now
+    with suppress(OSError, Timeout), FileLock(path, blocking=False):
         if _used(path) > oldest_recent:
             return False
         shutil.rmtree(folder, ignore_errors=True)

@@ -15,10 +15,9 @@ BUILDS_ON: dict[str, tuple[str, ...]] = {
     "spec": (),
     "golden": ("spec",),
     "hdl": ("spec",),
-    "sim": ("golden", "hdl", "flow"),
+    "sim": ("golden", "hdl"),
     "flow": ("hdl",),
-    "run": ("golden",),
-    "studies.paper": ("golden", "run"),
+    "studies.paper": ("golden",),
 }
 """The rooms whose results are kept, each with those that it imports and that decide what it gives."""
 

@@ -1,15 +1,13 @@
 """The hash of sources changes with all that decides a result, and with nothing missed."""
 
-import re
-from pathlib import Path
-
 import pytest
 
 from softdepth import sources
-from softdepth.sources import BUILDS_ON, PACKAGE, covered, folder, sources_hash
+from softdepth.sources import BUILDS_ON, covered, folder, sources_hash
+from tests.support.imports import graph, modules
 
-SHARED = {"errors.py", "files.py", "screen.py", "sources.py"}
-"""Modules that decide no result: how errors read, and where files lie."""
+SHARED = {"__init__.py", "errors.py", "files.py", "markers.py", "screen.py", "sources.py"}
+"""Modules that decide no result: how errors read, where files and tables lie."""
 
 
 def test_further_files_count(tmp_path):
@@ -21,37 +19,24 @@ def test_further_files_count(tmp_path):
     assert sources_hash("flow", further=(file,)) != before
 
 
-@pytest.mark.parametrize("room", ["golden", "hdl", "flow"])
-def test_a_room_covers_all_that_it_imports(room):
-    """Directly or through other modules of the package."""
-    places = [folder(each) for each in covered(room)]
-    waiting = list(folder(room).rglob("*.py"))
-    seen: set[Path] = set()
+@pytest.mark.parametrize("rooms", [*((room,) for room in BUILDS_ON), ("studies.paper", "sim")])
+def test_a_room_covers_all_that_it_imports(rooms):
+    """Directly or through other modules; what simulates is covered by whoever keeps what was simulated."""
+    known = modules()
+    names = {path: name for name, path in known.items()}
+    edges = graph()
+    places = [folder(each) for each in covered(*rooms)]
+    waiting = [names[path] for room in rooms for path in folder(room).rglob("*.py")]
+    seen: set[str] = set()
     while waiting:
-        file = waiting.pop()
-        if file in seen:
-            continue
-        seen.add(file)
-        waiting += imported(file)
-    missed = {file for file in seen if not any(file.is_relative_to(place) for place in places)}
-    assert {file.name for file in missed} <= SHARED
-
-
-def imported(file: Path) -> list[Path]:
-    """The modules of the project that a file imports anywhere in it."""
-    found = []
-    for name, names in re.findall(
-        r"^ *from (softdepth[\w.]*) import ([^\n]*)", file.read_text(), re.MULTILINE
-    ):
-        for full in (name, *(f"{name}.{each.strip(' ()')}" for each in names.split(","))):
-            parts = full.split(".")[1:]
-            if not parts:
-                continue
-            top = folder(parts[0]) if parts[0] in ("golden", "hdl", "sim") else PACKAGE / parts[0]
-            module = top.joinpath(*parts[1:]).with_suffix(".py")
-            if module.is_file():
-                found.append(module)
-    return found
+        module = waiting.pop()
+        if module not in seen and not (module.startswith("softdepth.sim") and "sim" not in covered(*rooms)):
+            seen.add(module)
+            waiting += edges[module]
+    assert len(seen) > 5
+    paths = [known[module] for module in seen]
+    missed = {path.name for path in paths if not any(path.is_relative_to(each) for each in places)}
+    assert missed <= SHARED
 
 
 def test_an_edited_file_changes_the_rooms_that_build_on_it(tmp_path, monkeypatch):

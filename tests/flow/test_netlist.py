@@ -4,12 +4,12 @@ import copy
 
 import pytest
 
+from softdepth.flow.netlist_verilog import netlist_verilog
 from softdepth.flow.synthesis import TOP, Netlist, cells, core_netlist
 from softdepth.golden import fixed_model
 from softdepth.golden.data import datasets
 from softdepth.sim.compare import Mismatch, mismatches
 from softdepth.sim.frames import run_frames
-from softdepth.sim.netlist import netlist_verilog
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ToolError
 from tests.flow.conftest import SMALL

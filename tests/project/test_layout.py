@@ -1,38 +1,97 @@
 """The folders keep to the project's rules."""
 
-import ast
+import subprocess
+import sys
 import tomllib
-from graphlib import TopologicalSorter
-from pathlib import Path
+from graphlib import CycleError, TopologicalSorter
 
 import pytest
 
+from tests.support.imports import ROOTS, graph, imported_names, modules, room
 
-def imports(path: Path) -> set[str]:
-    """Every module that a file imports, wherever in the file."""
-    found: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    return found
+BASE = {"caches", "ending", "files", "screen", "sources", "softdepth"}
+"""Modules of the package itself, and its name: what every program needs."""
+
+PERMITTED: dict[str, set[str]] = {
+    "spec": set(),
+    "golden": {"spec", "files"},
+    "hdl": {"spec"},
+    "sim": {"golden", "hdl", "spec", "files"},
+    "flow": {"hdl", "spec", *BASE},
+    "export": {"hdl", "spec"},
+    "rig": {"spec"},
+    "metric": {"rig", "golden", "spec", "files"},
+    "view": {"metric", "rig", "golden", "spec", "files"},
+    "board": {"golden", "spec"},
+    "run": {"board", "golden", "sim", "spec", *BASE},
+    "studies": {"run", "sim", "flow", "golden", "hdl", "spec", *BASE},
+    "caches": set(),
+    "ending": {"caches", "spec", "softdepth"},
+    "files": {"spec"},
+    "screen": set(),
+    "sources": {"spec"},
+}
+"""What each room may import besides itself. The command line (``cli``) may import all."""
+
+
+def departures(edges: dict[str, set[str]]) -> list[str]:
+    """Imports between rooms that are not permitted."""
+    return [
+        f"{module} imports {each}"
+        for module, targets in edges.items()
+        for each in targets
+        if (here := room(module)) not in ("cli", "__main__") and room(each) not in (here, "softdepth")
+        if room(each) not in PERMITTED.get(here, set())
+    ]
+
+
+def test_the_rooms_import_what_they_may():
+    edges = graph()
+    assert len(edges) > 100
+    assert departures(edges) == []
+
+
+def test_every_room_has_its_rule():
+    assert {room(module) for module in modules()} - {"cli", "__main__", "softdepth"} == PERMITTED.keys()
 
 
 @pytest.mark.parametrize(
-    ("folder", "forbidden"),
-    [("golden", {"hdl", "sim"}), ("hdl", {"golden", "sim"})],
+    ("module", "imported"),
+    [
+        ("softdepth.hdl.core", "softdepth.golden.fixed_model"),
+        ("softdepth.golden.fixed_model", "softdepth.sim.frames"),
+        ("softdepth.sim.build", "softdepth.flow.tools"),
+        ("softdepth.flow.tools", "softdepth.sim.build"),
+        ("softdepth.spec.config", "softdepth.files"),
+        ("softdepth.run.report", "softdepth.cli.run"),
+    ],
 )
-def test_models_and_gateware_do_not_know_each_other(project, folder, forbidden):
-    files = list((project / folder).rglob("*.py"))
-    assert files
-    for path in files:
-        for name in imports(path):
-            parts = name.split(".")
-            assert not (parts[0] == "softdepth" and set(parts[1:2]) & forbidden), (
-                f"{path.name} imports {name}"
-            )
-            assert not (parts[0] == "amaranth" and folder == "golden"), f"{path.name} imports {name}"
+def test_a_forbidden_import_is_found(module, imported):
+    edges = graph()
+    assert {module, imported} <= edges.keys()
+    edges[module] = {*edges[module], imported}
+    assert departures(edges) == [f"{module} imports {imported}"]
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    edges = graph()
+    TopologicalSorter(edges).prepare()
+    edges["softdepth.spec.errors"] = {"softdepth.cli.app"}
+    with pytest.raises(CycleError):
+        TopologicalSorter(edges).prepare()
+
+
+def test_the_models_do_not_know_amaranth():
+    for path in ROOTS["softdepth.golden"].rglob("*.py"):
+        assert not any(name.partition(".")[0] == "amaranth" for name in imported_names(path)), path.name
+
+
+def test_the_tools_do_not_load_the_simulator():
+    script = "import sys, softdepth.flow.tools; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = {name.partition(".")[0] for name in done.stdout.split()}
+    assert "softdepth" in loaded
+    assert not loaded & {"cocotb", "cocotb_tools", "amaranth", "numpy"}
 
 
 def test_every_package_is_declared(project):
@@ -49,12 +108,8 @@ def test_every_package_is_declared(project):
     assert declared == found
 
 
-def test_models_import_in_one_direction(project):
+def test_models_import_in_one_direction():
     """No module of the models leads back to itself, in imports for type checking neither."""
-    modules = {}
-    for path in (project / "golden").rglob("*.py"):
-        parts = path.relative_to(project / "golden").with_suffix("").parts
-        modules[".".join(("softdepth", "golden", *(p for p in parts if p != "__init__")))] = path
-    graph = {name: (imports(path) & modules.keys()) - {name} for name, path in modules.items()}
-    order = list(TopologicalSorter(graph).static_order())  # raises CycleError with the way round
+    edges = {name: each for name, each in graph(types=True).items() if room(name) == "golden"}
+    order = list(TopologicalSorter(edges).static_order())  # raises CycleError with the way round
     assert order.index("softdepth.golden.data.truth") < order.index("softdepth.golden.data.images")

@@ -5,10 +5,11 @@ import json
 import tempfile
 from pathlib import Path
 
-from softdepth.flow.synthesis import SCOPE, Netlist
+from softdepth.flow.netlist import Netlist
+from softdepth.flow.synthesis import SCOPE
 from softdepth.flow.synthesis import TOP as SYNTHESISED
 from softdepth.flow.tools import Tool, find_tool, share_folder
-from softdepth.sim.build import TOP
+from softdepth.hdl.verilog import TOP
 from softdepth.spec.errors import ToolError
 
 YOSYS_MODELS = ("common_sim.vh", "ccu2c_sim.vh")

@@ -1,0 +1,1 @@
+"""What is wrong with a pair: measured on a reduced copy, judged, and said with figure and remedy."""

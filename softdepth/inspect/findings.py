@@ -1,0 +1,154 @@
+"""From measurements to what is wrong: which limits are crossed, and by how much."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from softdepth.inspect.measurements import Measurements
+from softdepth.inspect.span import Span
+
+Code = Literal[
+    "same",
+    "unmatched",
+    "bare",
+    "exchanged",
+    "unrectified",
+    "rows",
+    "brightness",
+    "contrast",
+    "uneven",
+    "negative",
+    "short",
+    "needless",
+]
+"""What can be found. ``needless`` is about the configuration's cost alone; all others spoil results."""
+
+BARE = 0.85
+"""Share without texture above which a pair has nothing to match. Plain walls and furniture reach 0.76."""
+FEWEST_POINTS = 20
+LEAST_MATCHED = 0.05
+"""Points in both views, and their share of the keypoints, that views of one scene have."""
+ROWS = 0.6
+"""Offset in rows that is told; the fit's own error and the residue of usual calibrations are below 0.3."""
+ROW_CHANGE = 0.8
+"""Change of the offset over the image likewise; usual calibrations stay below 0.7, and 0.5 degrees exceed it
+from some 200 columns on."""
+ROWS_REDUCED = 0.25
+"""The same where images are reduced, in rows of the reduced pair: what keypoints cannot tell is not told."""
+BRIGHTNESS, CONTRAST, UNEVEN = 1.08, 1.12, 0.1
+"""Factors between the views, and their spread over the image, that are told."""
+NEGATIVE, POSITIVE = 0.02, 0.05
+"""Share of negative disparities that is told; share of positive ones below which the views are exchanged."""
+OUTSIDE = 0.015
+"""Share of the matched pixels beyond the range that is told."""
+NEEDLESS = 2
+"""Factor between the candidates there are and those that would do."""
+MARGIN = 2
+"""Pixels that a range that would do has beyond the largest disparity seen."""
+STEP = 16
+"""Ranges that would do are multiples of this: lanes divide them."""
+MOST = 256
+"""The largest number of candidates of a core."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that is wrong with a pair, and its figures by name (:mod:`softdepth.inspect.texts`)."""
+
+    code: Code
+    figures: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Range:
+    """A range that would do.
+
+    Members
+    -------
+    first : the smallest disparity; 0 unless there are negative ones.
+    disparities : candidates from `first` on, not limited to what a core can have.
+    """
+
+    first: int
+    disparities: int
+
+
+def needed(span: Span) -> Range:
+    """The range that holds a pair's disparities; raises nothing and may exceed `MOST`."""
+    low, high = span.low, span.high
+    first = math.floor(low) - 1 if low < -1 and span.below(-1) >= NEGATIVE else 0
+    count = max(1, math.ceil(high) + MARGIN + 1 - first)
+    return Range(first, -(-count // STEP) * STEP)
+
+
+def find(measured: Measurements, disparities: int) -> list[Finding]:
+    """What is wrong with a pair for a core with candidates ``0 .. disparities - 1``, gravest first."""
+    if measured.same:
+        return [Finding("same", {})]
+    found: list[Finding] = []
+    if measured.bare > BARE:
+        found.append(Finding("bare", {"share": measured.bare}))
+    elif measured.points < max(FEWEST_POINTS, LEAST_MATCHED * measured.keypoints):
+        points = {"points": measured.points, "keypoints": measured.keypoints}
+        found.append(Finding("unmatched", points))
+    if measured.points < FEWEST_POINTS:
+        return found  # what follows would rest on chance
+    return [*found, *_exchange(measured), *_rows(measured), *_light(measured), *_range(measured, disparities)]
+
+
+def _exchanged(span: Span | None) -> bool:
+    return span is not None and span.above(1) < POSITIVE and span.below(-1) >= POSITIVE
+
+
+def _exchange(measured: Measurements) -> list[Finding]:
+    span = measured.span
+    if span is None or not _exchanged(span):
+        return []
+    would_do = needed(span.mirrored()).disparities
+    figures = {"share": span.below(0), "low": span.low, "high": span.high, "disparities": would_do}
+    return [Finding("exchanged", figures)]
+
+
+def _rows(measured: Measurements) -> list[Finding]:
+    rows = measured.rows
+    if rows is None:
+        return []
+    blind = ROWS_REDUCED * measured.scale
+    first, last = rows.ends
+    if rows.change > max(ROW_CHANGE, blind):
+        turn = math.degrees(math.atan2(rows.across, measured.width))
+        return [Finding("unrectified", {"first": first, "last": last, "degrees": turn})]
+    if abs(rows.offset) > max(ROWS, blind):
+        return [Finding("rows", {"offset": rows.offset})]
+    return []
+
+
+def _light(measured: Measurements) -> list[Finding]:
+    light = measured.light
+    if light is None:
+        return []
+    found: list[Finding] = []
+    if abs(math.log(light.brightness)) > math.log(BRIGHTNESS):
+        found.append(Finding("brightness", {"ratio": light.brightness, "contrast": light.contrast}))
+    elif abs(math.log(light.contrast)) > math.log(CONTRAST):
+        found.append(Finding("contrast", {"ratio": light.contrast}))
+    if light.uneven > UNEVEN:
+        found.append(Finding("uneven", {"spread": light.uneven}))
+    return found
+
+
+def _range(measured: Measurements, disparities: int) -> list[Finding]:
+    span = measured.span
+    if span is None or _exchanged(span):
+        return []
+    would_do = needed(span)
+    figures = {"low": span.low, "high": span.high, "disparities": would_do.disparities}
+    if would_do.first < 0:
+        share = span.below(-0.5)
+        return [Finding("negative", {"share": share, "shift": -would_do.first, **figures})]
+    outside = span.above(disparities - 0.5)
+    if outside >= OUTSIDE:
+        return [Finding("short", {"share": outside, "given": disparities, **figures})]
+    if would_do.disparities * NEEDLESS <= disparities:
+        return [Finding("needless", {"given": disparities, **figures})]
+    return []

@@ -16,7 +16,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full bench compare paper bitstream boards program utilization savings lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -40,6 +40,10 @@ bench: $(READY) ## measure speed and write docs/benchmarks.md
 # Middlebury's images: in the folder that SOFTDEPTH_DATA names, or downloaded.
 paper: $(READY) ## the paper's tables and pictures: out/paper, docs/paper.md
 	@$(BIN)/softdepth paper -o out/paper --document docs/paper.md
+
+# Scenes with known depth: in the folder that SOFTDEPTH_SCENES names.
+inspections: $(READY) ## how often softdepth inspect is right: docs/inspect.md
+	@$(BIN)/python -m softdepth.studies.inspections
 
 compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
 	@for method in "paper mean" "paper min" "compact mean" "lite mean"; do set -- $$method; \

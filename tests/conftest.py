@@ -9,13 +9,30 @@ import pytest
 @pytest.fixture(scope="session")
 def data_dir() -> Path:
     """The folder with ``teddy/``, ``cones/`` and ``venus/``; the test is skipped where there is none."""
-    value = os.environ.get("SOFTDEPTH_DATA")
+    return _folder("SOFTDEPTH_DATA", "Middlebury's teddy/, cones/ and venus/")
+
+
+def _folder(variable: str, what: str) -> Path:
+    """The folder that an environment variable names; the test is skipped where it is unset."""
+    value = os.environ.get(variable)
     if not value:
-        pytest.skip("SOFTDEPTH_DATA is unset: it names a folder with Middlebury's teddy/, cones/ and venus/")
+        pytest.skip(f"{variable} is unset: it names a folder with {what}")
     folder = Path(value)
     if not folder.is_dir():
-        pytest.fail(f"SOFTDEPTH_DATA is '{folder}', which is no folder")
+        pytest.fail(f"{variable} is '{folder}', which is no folder")
     return folder
+
+
+@pytest.fixture(scope="session")
+def scenes_dir() -> Path:
+    """The folder with a folder for each scene of known depth; the test is skipped where there is none."""
+    return _folder("SOFTDEPTH_SCENES", "SCENE/left.png, right.png and truth.pfm")
+
+
+@pytest.fixture(scope="session")
+def cases_dir() -> Path:
+    """The folder with small inputs that are wrong in known ways; the test is skipped where there is none."""
+    return _folder("SOFTDEPTH_CASES", "pairs that are wrong in known ways")
 
 
 @pytest.fixture(scope="session")

@@ -16,6 +16,7 @@ from softdepth.cli import (
     compare,
     export,
     info,
+    inspect,
     listing,
     options,
     paper,
@@ -32,6 +33,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command("run")(run.run)
+app.command("inspect")(inspect.inspect)
 app.command("board")(board.board)
 app.command("compare")(compare.compare)
 app.command("export")(export.export)

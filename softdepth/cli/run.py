@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from softdepth import ending, screen
-from softdepth.cli import options, pairs
+from softdepth.cli import inspect, options, pairs
 from softdepth.cli.bundle import bundled
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -47,6 +47,7 @@ def run(
     from softdepth.run import measure, report
 
     pair, chosen = source.read_for(choice)
+    inspect.note(pair, chosen)
     with results.result_folder(output, stale=report.FILES) as folder:
         measurement = measure.measure(pair, chosen, engine, also=further)
         summary = report.summarise(pair, chosen, measurement)

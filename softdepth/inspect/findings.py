@@ -45,8 +45,8 @@ NEEDLESS = 2
 """Factor between the candidates there are and those that would do."""
 MARGIN = 2
 """Pixels that a range that would do has beyond the largest disparity seen."""
-STEP = 16
-"""Ranges that would do are multiples of this: lanes divide them."""
+STEP = 8
+"""Ranges that would do are multiples of the lanes, and of at least so many candidates."""
 MOST = 256
 """The largest number of candidates of a core."""
 
@@ -73,16 +73,20 @@ class Range:
     disparities: int
 
 
-def needed(span: Span) -> Range:
-    """The range that holds a pair's disparities; raises nothing and may exceed `MOST`."""
+def needed(span: Span, lanes: int) -> Range:
+    """The range that holds a pair's disparities, for a core of so many lanes; it may exceed `MOST`."""
     low, high = span.low, span.high
     first = math.floor(low) - 1 if low < -1 and span.below(-1) >= NEGATIVE else 0
     count = max(1, math.ceil(high) + MARGIN + 1 - first)
-    return Range(first, -(-count // STEP) * STEP)
+    step = lanes * math.ceil(STEP / lanes)
+    return Range(first, math.ceil(count / step) * step)
 
 
-def find(measured: Measurements, disparities: int) -> list[Finding]:
-    """What is wrong with a pair for a core with candidates ``0 .. disparities - 1``, gravest first."""
+def find(measured: Measurements, disparities: int, lanes: int) -> list[Finding]:
+    """What is wrong with a pair for a core with candidates ``0 .. disparities - 1``, gravest first.
+
+    `lanes` decides which other numbers of candidates are named as remedies.
+    """
     if measured.same:
         return [Finding("same", {})]
     found: list[Finding] = []
@@ -93,20 +97,26 @@ def find(measured: Measurements, disparities: int) -> list[Finding]:
         found.append(Finding("unmatched", points))
     if measured.points < FEWEST_POINTS:
         return found  # what follows would rest on chance
-    return [*found, *_exchange(measured), *_rows(measured), *_light(measured), *_range(measured, disparities)]
+    span, rows = measured.span, _rows(measured)
+    ranges: list[Finding] = []
+    if span is not None and exchanged(span):
+        ranges = [_exchange(span, disparities, lanes)]
+    elif span is not None and not any(one.code == "unrectified" for one in rows):
+        ranges = _range(span, disparities, lanes)  # what rectifying moves is not judged before
+    spoilt = [one for one in ranges if one.code != "needless"]
+    thrifty = [one for one in ranges if one.code == "needless"]
+    return [*found, *spoilt, *rows, *_light(measured), *thrifty]
 
 
-def _exchanged(span: Span | None) -> bool:
-    return span is not None and span.above(1) < POSITIVE and span.below(-1) >= POSITIVE
+def exchanged(span: Span) -> bool:
+    """Whether the disparities are those of a pair whose views are exchanged: next to none is positive."""
+    return span.above(1) < POSITIVE and span.below(-1) >= POSITIVE
 
 
-def _exchange(measured: Measurements) -> list[Finding]:
-    span = measured.span
-    if span is None or not _exchanged(span):
-        return []
-    would_do = needed(span.mirrored()).disparities
-    figures = {"share": span.below(0), "low": span.low, "high": span.high, "disparities": would_do}
-    return [Finding("exchanged", figures)]
+def _exchange(span: Span, disparities: int, lanes: int) -> Finding:
+    would_do = needed(span.mirrored(), lanes).disparities
+    figures = {"share": span.below(0), "low": span.low, "high": span.high}
+    return Finding("exchanged", {**figures, "given": disparities, "disparities": would_do})
 
 
 def _rows(measured: Measurements) -> list[Finding]:
@@ -137,15 +147,12 @@ def _light(measured: Measurements) -> list[Finding]:
     return found
 
 
-def _range(measured: Measurements, disparities: int) -> list[Finding]:
-    span = measured.span
-    if span is None or _exchanged(span):
-        return []
-    would_do = needed(span)
+def _range(span: Span, disparities: int, lanes: int) -> list[Finding]:
+    would_do = needed(span, lanes)
     figures = {"low": span.low, "high": span.high, "disparities": would_do.disparities}
     if would_do.first < 0:
-        share = span.below(-0.5)
-        return [Finding("negative", {"share": share, "shift": -would_do.first, **figures})]
+        shift = {"shift": -would_do.first, "given": disparities}
+        return [Finding("negative", {"share": span.below(-0.5), **shift, **figures})]
     outside = span.above(disparities - 0.5)
     if outside >= OUTSIDE:
         return [Finding("short", {"share": outside, "given": disparities, **figures})]

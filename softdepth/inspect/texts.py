@@ -29,6 +29,11 @@ def _option(f: Figures) -> str:
     return f"images of at most {MOST / count:.2f} times the size, as {count} candidates are more than {MOST}"
 
 
+def _wider(f: Figures) -> str:
+    """The range to use after the remedy, where the one that was given would be too small."""
+    return f", and use {_option(f)}" if f["disparities"] > f["given"] else ""
+
+
 def _span(f: Figures) -> str:
     return f"{f['low']:.0f} .. {f['high']:.0f} px"
 
@@ -50,7 +55,7 @@ def _shift(f: Figures) -> str:
 
 def _negative(f: Figures) -> str:
     n = int(f["shift"])
-    return f"cut {n} columns off the right image's left and off the left image's right side, and use {_option(f)}"
+    return f"cut {n} columns off the right image's left side and off the left image's right side{_wider(f)}"
 
 
 _TEXTS: dict[Code, tuple[Callable[[Figures], str], Callable[[Figures], str]]] = {
@@ -74,7 +79,7 @@ _TEXTS: dict[Code, tuple[Callable[[Figures], str], Callable[[Figures], str]]] = 
             f"left and right are exchanged: {100 * f['share']:.0f} % of the disparities are negative"
             f" ({_span(f)})"
         ),
-        lambda f: f"give the right image first, with {_option(f)}",
+        lambda f: f"give the right image first{_wider(f)}",
     ),
     "unrectified": (
         lambda f: (

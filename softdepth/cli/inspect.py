@@ -84,7 +84,7 @@ def facts(found: "Inspection") -> dict[str, str]:
         if found.range
         else unknown,
         "right to left": f"brightness {light.brightness:.3f} (+-{100 * light.uneven:.1f} % over the image),"
-        f" contrast {light.contrast:.3f}"
+        f" contrast {light.contrast:.3f}, gamma {light.gamma:.2f}"
         if light
         else unknown,
         "without texture": f"{100 * measured.bare:.0f} % of the left image",

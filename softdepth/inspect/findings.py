@@ -93,7 +93,7 @@ def find(measured: Measurements, disparities: int, lanes: int) -> list[Finding]:
     if measured.bare > BARE:
         found.append(Finding("bare", {"share": measured.bare}))
     elif measured.points < max(FEWEST_POINTS, LEAST_MATCHED * measured.keypoints):
-        points = {"points": measured.points, "keypoints": measured.keypoints}
+        points = {"points": float(measured.points), "keypoints": float(measured.keypoints)}
         found.append(Finding("unmatched", points))
     if measured.points < FEWEST_POINTS:
         return found  # what follows would rest on chance
@@ -139,7 +139,8 @@ def _light(measured: Measurements) -> list[Finding]:
         return []
     found: list[Finding] = []
     if abs(math.log(light.brightness)) > math.log(BRIGHTNESS):
-        found.append(Finding("brightness", {"ratio": light.brightness, "contrast": light.contrast}))
+        figures = {"ratio": light.brightness, "contrast": light.contrast, "gamma": light.gamma}
+        found.append(Finding("brightness", figures))
     elif abs(math.log(light.contrast)) > math.log(CONTRAST):
         found.append(Finding("contrast", {"ratio": light.contrast}))
     if light.uneven > UNEVEN:

@@ -23,11 +23,14 @@ class Light:
     Members
     -------
     brightness, contrast : the median over the points of the ratio of means, and of standard deviations.
-    uneven : half the distance between the quartiles of the brightness ratios, as a factor: 0.1 is +-10 %.
+    gamma : the exponent that takes the left view's brightness to the right view's, up to a factor.
+    uneven : half the distance between the quartiles of what the brightness ratios depart from that gamma,
+        as a factor: 0.1 is +-10 % from place to place.
     """
 
     brightness: float
     contrast: float
+    gamma: float
     uneven: float
 
 
@@ -40,12 +43,29 @@ def measure(pair: Reduced, points: Points) -> Light | None:
     usable &= np.minimum(left_spread, right_spread) > 1
     if usable.sum() < FEWEST:
         return None
-    brightness = np.log(right[usable] / left[usable])
+    places, ratio = np.log(left[usable]), np.log(right[usable] / left[usable])
     contrast = np.log(right_spread[usable] / left_spread[usable])
-    quarter, middle, three = np.percentile(brightness, (25, 50, 75))
+    slope, rest = _line(places, ratio)
+    quarter, three = np.percentile(rest, (25, 75))
     return Light(
-        float(np.exp(middle)), float(np.exp(np.median(contrast))), float(np.expm1((three - quarter) / 2))
+        brightness=float(np.exp(np.median(ratio))),
+        contrast=float(np.exp(np.median(contrast))),
+        gamma=1 + slope,
+        uneven=float(np.expm1((three - quarter) / 2)),
     )
+
+
+def _line(places: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray]:
+    """The slope of a line through most points, and how far each point lies above it."""
+    kept = np.ones(len(places), bool)
+    slope, rest = 0.0, values - np.median(values)
+    for _ in range(3):
+        if np.ptp(places[kept]) < 0.1:  # one brightness everywhere has no slope
+            break
+        slope, level = (float(value) for value in np.polyfit(places[kept], values[kept], 1))
+        rest = values - slope * places - level
+        kept = np.abs(rest) <= 2 * np.median(np.abs(rest)) + 1e-6
+    return slope, rest
 
 
 def _around(view: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -93,7 +93,7 @@ def _apart(these: np.ndarray, those: np.ndarray, axis: int) -> np.ndarray:
 
 def _keypoints(view: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Places (N x 2) and unit descriptors (N x 128)."""
-    sift = cv2.SIFT_create(nfeatures=KEYPOINTS, contrastThreshold=_CONTRAST)
+    sift = cv2.SIFT_create(nfeatures=KEYPOINTS, contrastThreshold=_CONTRAST)  # pyright: ignore[reportAttributeAccessIssue]
     points, words = sift.detectAndCompute(view, None)
     if words is None:
         return np.zeros((0, 2), np.float32), np.zeros((0, 128), np.float32)

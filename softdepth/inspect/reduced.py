@@ -30,10 +30,10 @@ class Reduced:
         height, width = left.shape[:2]
         scale = max(1.0, max(height, width) / longest)
         size = max(1, round(width / scale)), max(1, round(height / scale))
-        views = (_gray(view) for view in (left, right))
+        reduced = [_gray(view) for view in (left, right)]
         if scale > 1:
-            views = (cv2.resize(view, size, interpolation=cv2.INTER_AREA) for view in views)
-        return cls(*views, scale)
+            reduced = [cv2.resize(view, size, interpolation=cv2.INTER_AREA) for view in reduced]
+        return cls(reduced[0], reduced[1], scale)
 
     def smaller(self, longest: int) -> "Reduced":
         """The same pair with at most `longest` pixels a side."""

@@ -69,7 +69,7 @@ def measure(pair: Reduced, points: Points) -> Span | None:
     reach = high - low
     first = int(np.floor(low - 0.25 * reach - 4))
     count = int(np.ceil((high + 0.5 * reach + 8 - first) / 16) * 16)
-    matcher = cv2.StereoSGBM_create(
+    matcher = cv2.StereoSGBM_create(  # pyright: ignore[reportAttributeAccessIssue]
         minDisparity=first,
         numDisparities=count,
         blockSize=_WINDOW,

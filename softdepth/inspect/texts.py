@@ -91,7 +91,8 @@ _TEXTS: dict[Code, tuple[Callable[[Figures], str], Callable[[Figures], str]]] = 
     "rows": (_rows, _shift),
     "brightness": (
         lambda f: (
-            f"the right view is {f['ratio']:.2f} times as bright as the left (contrast {f['contrast']:.2f})"
+            f"the right view is {f['ratio']:.2f} times as bright as the left (contrast"
+            f" {f['contrast']:.2f}, gamma {f['gamma']:.2f})"
         ),
         lambda f: "give both cameras one exposure, gain and gamma, or equalise the images",
     ),

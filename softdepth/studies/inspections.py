@@ -105,7 +105,8 @@ def study(scenes: list[Scene], rows: tuple[int, ...] | None = None) -> str:
     """The tables: what is said about the scenes as they are, and how often about broken ones."""
     before = {scene.name: inspect(scene.left, scene.right, CONFIG) for scene in scenes}
     tallies: dict[str, Tally] = {}
-    for scene, other in zip(scenes, [*scenes[1:], scenes[0]], strict=True):
+    half = len(scenes) // 2  # neighbours by name may be one scene under two lights
+    for scene, other in zip(scenes, [*scenes[half:], *scenes[:half]], strict=True):
         screen.note(f"{scene.name} ...")
         for broken in variants(scene.left, scene.right, other.right, rows):
             tally = tallies.setdefault(broken.kind, Tally())
@@ -120,9 +121,9 @@ def _as_they_are(scenes: list[Scene], before: dict[str, Inspection]) -> list[str
     silent = sum(not codes(found) for found in before.values())
     enough = sum(_holds(before[scene.name], scene) for scene in scenes)
     lines = [
-        f"Of {len(scenes)} pairs as they are, with {CONFIG.disparities} candidates, {silent} are called sound;"
-        f" the range that would do holds {COVERED} % of the known disparities in {enough}. What is said about the"
-        " others:",
+        f"Of {len(scenes)} pairs as they are, {silent} are called sound for {CONFIG.disparities} candidates;"
+        f" the range that would do holds {COVERED} % of the known disparities in {enough}. What is said about"
+        " the others:",
         "",
     ]
     for name, found in before.items():
@@ -162,8 +163,9 @@ def main(project: Path) -> None:
         text = path.read_text()
     except OSError as error:
         raise InputError(f"'{path}' cannot be read: {error}", "run this in the project's folder") from error
+    markers.renew(text, str(DOCUMENT), PART, "")  # lost markers show before the work
     tables = study([*read_scenes(Path(folder)), *known_sets()])
-    write_atomically(path, markers.renew(text, str(DOCUMENT), PART, tables).encode())
+    write_atomically(path, markers.renew(path.read_text(), str(DOCUMENT), PART, tables).encode())
 
 
 if __name__ == "__main__":

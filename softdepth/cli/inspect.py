@@ -7,6 +7,7 @@ import typer
 
 from softdepth import screen
 from softdepth.cli import options, pairs
+from softdepth.cli.bundle import bundled
 from softdepth.spec.config import Config
 
 if TYPE_CHECKING:
@@ -14,29 +15,21 @@ if TYPE_CHECKING:
     from softdepth.inspect.inspection import Inspection
 
 
+@bundled
 def inspect(
-    left: pairs.Left = None,
-    right: pairs.Right = None,
-    dataset: pairs.Dataset = None,
-    bits: pairs.Bits = None,
-    side_by_side: pairs.SideBySide = False,
-    top_bottom: pairs.TopBottom = False,
-    preset: options.Preset = None,
-    config: options.ConfigFile = None,
-    assignments: options.Assignments = None,
-    lanes: options.Lanes = None,
-    disparities: options.Disparities = None,
+    source: pairs.Source,
+    choice: options.Choice,
     as_json: Annotated[
         bool, typer.Option("--json", help="Figures and findings as JSON on standard output.")
     ] = False,
 ) -> None:
     """Tell what is wrong with a pair: range, order, rows, light, texture. Findings leave the exit code 0."""
-    chosen = options.configuration(preset, config, assignments, lanes=lanes, disparities=disparities)
+    chosen = choice.configuration()
     from softdepth.inspect.inspection import inspect as look
 
-    pair = pairs.load(left, right, dataset, bits=bits, side_by_side=side_by_side, top_bottom=top_bottom)
+    pair = source.read(chosen)
     found = look(pair.left, pair.right, chosen)
-    if not (preset or config or assignments or disparities):  # nobody has asked for this range
+    if not choice.given:  # nobody has asked for this range
         found = replace(found, findings=[one for one in found.findings if one.code != "needless"])
     if as_json:
         print(found.json())

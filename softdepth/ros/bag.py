@@ -33,10 +33,6 @@ class Topics:
     left_info: str
     right_info: str
 
-    def all(self) -> tuple[str, ...]:
-        """Every one of them."""
-        return (self.left, self.right, self.left_info, self.right_info)
-
 
 @dataclass(frozen=True, eq=False)
 class BagPair:
@@ -62,12 +58,14 @@ def opened(path: Path) -> Iterator[AnyReader]:
     """A bag for reading (folder of .db3 or .mcap files); raises `InputError` where it is none."""
     if not path.exists():
         raise InputError(f"'{path}' does not exist", "give the folder of a ROS 2 bag")
-    reader = AnyReader([path], default_typestore=TYPES)
     try:
+        reader = AnyReader([path], default_typestore=TYPES)
         reader.open()
     except (AnyReaderError, OSError, ValueError, KeyError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise InputError(f"'{path}' is no ROS 2 bag ({reason})", "give its folder, with metadata.yaml") from error
+        raise InputError(
+            f"'{path}' is no ROS 2 bag ({reason})", "give its folder, with metadata.yaml"
+        ) from error
     try:
         yield reader
     finally:
@@ -88,7 +86,8 @@ def pairs(reader: AnyReader, topics: Topics, *, tolerance: float = 0.0) -> Itera
     Raises `InputError` for a topic that the bag lacks or that holds another kind of message, for images
     before any `camera_info`, and for a calibration that is not a rectified pair's.
     """
-    connections = [_connection(reader, topic, IMAGES if k < 2 else (INFO,)) for k, topic in enumerate(topics.all())]
+    connections = [_connection(reader, topic, IMAGES) for topic in (topics.left, topics.right)]
+    connections += [_connection(reader, topic, (INFO,)) for topic in (topics.left_info, topics.right_info)]
     waiting: dict[str, deque[tuple[int, int, Any]]] = {topics.left: deque(), topics.right: deque()}
     infos: dict[str, Any] = {}
     reach = round(tolerance * 1e9)
@@ -105,7 +104,8 @@ def pairs(reader: AnyReader, topics: Topics, *, tolerance: float = 0.0) -> Itera
             (_, received_left, left), (_, _, right) = match
             if missing := [name for name in (topics.left_info, topics.right_info) if name not in infos]:
                 raise InputError(
-                    f"images come before any message of '{missing[0]}'", "record camera_info from the start on"
+                    f"images come before any message of '{missing[0]}'",
+                    "record camera_info from the start on",
                 )
             geometry = geometry_of(infos[topics.left_info], infos[topics.right_info], left.header.frame_id)
             images = to_array(left, topics.left), to_array(right, topics.right)

@@ -97,7 +97,9 @@ def convert(
         target.parent.mkdir(parents=True, exist_ok=True)
         work = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     except OSError as error:
-        raise InputError(f"cannot write '{target}': {error.strerror}", "choose another place with -o") from error
+        raise InputError(
+            f"cannot write '{target}': {error.strerror}", "choose another place with -o"
+        ) from error
     try:
         with (
             opened(source) as reader,
@@ -105,7 +107,8 @@ def convert(
         ):
             for rig in rigs:
                 outputs = [
-                    writer.add_connection(topic, kind, typestore=TYPES) for topic, kind in rig.outputs().items()
+                    writer.add_connection(topic, kind, typestore=TYPES)
+                    for topic, kind in rig.outputs().items()
                 ]
                 for pair in pairs(reader, rig.topics, tolerance=tolerance):
                     results = _results(pair, compute(pair), search, choice or Choice())

@@ -38,7 +38,8 @@ def to_array(message: Any, topic: str) -> np.ndarray:
         return _decompressed(message, topic)
     if message.encoding not in ENCODINGS:
         raise InputError(
-            f"images of '{topic}' have the encoding '{message.encoding}'", f"use one of {', '.join(ENCODINGS)}"
+            f"images of '{topic}' have the encoding '{message.encoding}'",
+            f"use one of {', '.join(ENCODINGS)}",
         )
     sample, channels, conversion = ENCODINGS[message.encoding]
     dtype = np.dtype(sample).newbyteorder(">" if message.is_bigendian else "<")
@@ -62,7 +63,8 @@ def _decompressed(message: Any, topic: str) -> np.ndarray:
     image = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if data.size else None
     if image is None or image.dtype not in (np.uint8, np.uint16):
         raise InputError(
-            f"an image of '{topic}' cannot be decoded (format '{message.format}')", "use PNG or JPEG compression"
+            f"an image of '{topic}' cannot be decoded (format '{message.format}')",
+            "use PNG or JPEG compression",
         )
     if image.ndim == 2:
         return image

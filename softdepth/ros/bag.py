@@ -92,7 +92,7 @@ def pairs(reader: AnyReader, topics: Topics, *, tolerance: float = 0.0) -> Itera
     infos: dict[str, Any] = {}
     reach = round(tolerance * 1e9)
     for connection, received, raw in reader.messages(connections):
-        message = reader.deserialize(raw, connection.msgtype)
+        message: Any = reader.deserialize(raw, connection.msgtype)
         if connection.msgtype == INFO:
             infos[connection.topic] = message
             continue

@@ -14,6 +14,7 @@ For every pixel and candidate d, in exact integer arithmetic:
 5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
    Where S is not above zero, the cost is infinite: N / S = 1 / 0, which no candidate with S > 0
    loses against.
+   Candidates are counted from `Config.min_disparity` on (`front.offset`).
 6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
    so far when ``N * S_best < N_best * S``.
 
@@ -32,6 +33,7 @@ from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.fixed_operators import conclude
 from softdepth.golden.costs.fuzzy.inference import Memberships
 from softdepth.golden.front.borders import validity_codes
+from softdepth.golden.front.offset import first_column, from_zero, overlap, placed
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
 from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap, Result
@@ -64,7 +66,8 @@ class Stages:
 
     Members
     -------
-    winners : of both views, with the costs around the left one; in the core's view.
+    winners : of both views, with the costs around the left one; in the core's view, as `front.offset`
+        makes it.
     maps : by name, the map after each stage of `post.stages`, in the user's reference view.
     """
 
@@ -80,13 +83,14 @@ class Stages:
 def stages(left: Image, right: Image, config: Config) -> Stages:
     """What `disparity` gives, and all that it comes from. Errors as there."""
     _check(left, right, config)
-    reference, other = to_core_view(left, right, config)
+    reference, other = overlap(*to_core_view(left, right, config), config)
     height, width, _ = reference.shape
+    inner = from_zero(config)
     found = winners(
-        reference, other, config, lambda d, criteria: cost_of(config, d, criteria), comparison(config)
+        reference, other, inner, lambda d, criteria: cost_of(inner, d, criteria), comparison(inner)
     )
-    done = post.stages(config, found, validity_codes(height, width, config), reference, config.pixel.bits)
-    sure = confidence(config, found) if config.post.confidence else None
+    done = post.stages(inner, found, validity_codes(height, width, inner), reference, config.pixel.bits)
+    sure = confidence(inner, found) if config.post.confidence else None
     maps, fraction_bits = {}, 0
     for stage in done:
         if stage.name == "sixteenths":
@@ -94,7 +98,7 @@ def stages(left: Image, right: Image, config: Config) -> Stages:
         measured = stage.code < Validity.BORDER
         kept = None if sure is None else np.where(measured, sure, np.uint8(0))
         after = DisparityMap(stage.disparity, stage.code, fraction_bits, kept)
-        maps[stage.name] = from_core_view(after, config)
+        maps[stage.name] = from_core_view(placed(after, config, left.shape[1]), config)
     return Stages(found, maps)
 
 
@@ -119,17 +123,18 @@ def comparison(config: Config) -> Comparison:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """What the core holds while it judges one pixel; row d of every array is candidate d.
+    """What the core holds while it judges one pixel; row k of every array is candidate ``first + k``.
 
     Members
     -------
+    first : the disparity of row 0.
     criteria : candidates x criteria, the sums as measured.
     inputs : the same after the compensating rule.
     memberships : candidates x criteria x 3, low to high.
     conclusions : candidates x 11, ``Y_1`` first.
     numerator, denominator : one per candidate, N and S.
-    winner : the candidate of least cost.
-    right : the right winner of its partner, where the configuration checks it.
+    winner : the row of least cost.
+    right : that of the right winner of its partner, where the configuration checks it.
     around : costs, as numbers, of the candidates beside the winner and of the runner-up, as `Winners` has
         them; None where no candidate takes part. Empty where the configuration asks for none.
     stages : the result after each stage of `post.stages`.
@@ -139,6 +144,7 @@ class Trace:
     memberships and conclusions are empty.
     """
 
+    first: int
     criteria: NDArray[np.int64]
     inputs: NDArray[np.int64]
     memberships: NDArray[np.int64]
@@ -159,9 +165,9 @@ class Trace:
         rows = zip(
             self.criteria, self.inputs, self.conclusions, self.numerator, self.denominator, strict=True
         )
-        lines += [f"{d}: {c} -> {i} | {y} | {n}/{s}" for d, (c, i, y, n, s) in enumerate(rows)]
+        lines += [f"{d}: {c} -> {i} | {y} | {n}/{s}" for d, (c, i, y, n, s) in enumerate(rows, self.first)]
         if self.right is not None:
-            lines.append(f"right winner at x - {self.winner}: {self.right}")
+            lines.append(f"right winner at x - {self.first + self.winner}: {self.first + self.right}")
         lines += [f"{name}: {'none' if cost is None else cost}" for name, cost in self.around.items()]
         if len(self.stages) > 1:
             lines += [f"after {name}: {result}" for name, result in self.stages.items()]
@@ -176,12 +182,15 @@ def trace(left: Image, right: Image, config: Config, x: int, y: int, frame: Stag
     """
     _check(left, right, config)
     check_pixel(left, x, y)
-    reference, other = to_core_view(left, right, config)
+    reference, other = overlap(*to_core_view(left, right, config), config)
     height, width, _ = reference.shape
-    user_x = x
-    x = column_in_core_view(x, width, config)
+    user_x, asked, first = x, config, config.min_disparity
+    x = column_in_core_view(x, left.shape[1], config) - first_column(config)
+    config = from_zero(config)
     rows: dict[str, list[Any]] = {name: [] for name in _BY_CANDIDATE}
-    winner, code = 0, int(validity_codes(height, width, config)[y, x])
+    winner, code = 0, int(Validity.BORDER)
+    if 0 <= x < width:
+        code = int(validity_codes(height, width, config)[y, x])
     if code < Validity.BORDER:
         column = x - config.reach_left
         for d, block in band(reference, other, config, y, y + 1).candidates():
@@ -205,19 +214,22 @@ def trace(left: Image, right: Image, config: Config, x: int, y: int, frame: Stag
             rows["denominator"].append(s.item())
             if n.item() * rows["denominator"][winner] < rows["numerator"][winner] * s.item():
                 winner = d
-    after, around, other_winner = {"winner": Result(winner, code)}, {}, None
+    disparity_there = winner + first if code < Validity.BORDER else 0
+    after, around, other_winner = {"winner": Result(disparity_there, code)}, {}, None
     if config.post.any:
-        frame = frame or stages(left, right, config)
+        frame = frame or stages(left, right, asked)
         after = {name: found.at(user_x, y) for name, found in frame.maps.items()}
         found = frame.winners
-        if config.post.check:
+        inside = 0 <= x < width
+        if config.post.check and inside:
             other_winner = int(found.right[y, max(x - winner, 0)])
-        if config.post.fraction_bits or config.post.confidence:
+        if inside and (config.post.fraction_bits or config.post.confidence):
             for name in ("below", "at", "above", "runner_up"):
                 number = int(getattr(found, name)[y, x])
                 around[name] = None if number == found.never else number
     result = list(after.values())[-1]
     return Trace(
+        first=first,
         **{name: np.array(v, np.int64) for name, v in rows.items()},
         winner=winner,
         right=other_winner,

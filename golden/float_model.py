@@ -10,6 +10,7 @@ from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.inference import conclusions
 from softdepth.golden.costs.fuzzy.operators import operator
 from softdepth.golden.front.borders import validity_codes
+from softdepth.golden.front.offset import first_column, from_zero, overlap, placed
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
 from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap
@@ -45,11 +46,12 @@ def disparity(
     Raises `InputError` for unusable images and `ConfigError` for parameters outside their range.
     """
     check_pair(left, right, config.pixel)
-    cost = _cost_function(config, label, delta, k)
-    reference, other = to_core_view(left, right, config)
+    inner = from_zero(config)
+    cost = _cost_function(inner, label, delta, k)
+    reference, other = overlap(*to_core_view(left, right, config), config)
     height, width, _ = reference.shape
     disparities = np.zeros((height, width), np.uint16)
-    for part in bands(reference, other, config):
+    for part in bands(reference, other, inner):
         best = np.full(part.shape, np.inf)
         winner = disparities[part.rows, part.columns]
         for d, criteria in part.candidates():
@@ -57,7 +59,8 @@ def disparity(
             better = costs_d < best[:, d:]
             np.copyto(best[:, d:], costs_d, where=better)
             winner[:, d:][better] = d
-    return from_core_view(DisparityMap(disparities, validity_codes(height, width, config)), config)
+    found = DisparityMap(disparities, validity_codes(height, width, inner))
+    return from_core_view(placed(found, config, left.shape[1]), config)
 
 
 def costs(
@@ -78,12 +81,13 @@ def costs(
     """
     check_pair(left, right, config.pixel)
     check_pixel(left, x, y)
-    cost = _cost_function(config, label, delta, k)
-    reference, other = to_core_view(left, right, config)
+    x = column_in_core_view(x, left.shape[1], config) - first_column(config)
+    reference, other = overlap(*to_core_view(left, right, config), config)
     height, width, _ = reference.shape
-    x = column_in_core_view(x, width, config)
+    config = from_zero(config)
+    cost = _cost_function(config, label, delta, k)
     curve = np.full(config.disparities, np.inf)
-    if validity_codes(height, width, config)[y, x] < Validity.BORDER:
+    if 0 <= x < width and validity_codes(height, width, config)[y, x] < Validity.BORDER:
         column = x - config.reach_left
         for d, criteria in band(reference, other, config, y, y + 1).candidates():
             if d <= column:

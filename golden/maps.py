@@ -43,7 +43,8 @@ class DisparityMap:
 
     Members
     -------
-    disparity : HxW uint16, in units of ``2**-fraction_bits`` pixels; 0 where there is none.
+    disparity : HxW uint16, or int16 where candidates are negative, in units of ``2**-fraction_bits``
+        pixels; 0 where there is none.
     code : HxW uint8, a `Validity` each.
     fraction_bits : `Post.fraction_bits`.
     confidence : HxW uint8, 255 the surest and 0 where nothing was measured; None where a core gives none.
@@ -51,14 +52,14 @@ class DisparityMap:
     Raises `InputError` unless all are two-dimensional, of these types and of one shape.
     """
 
-    disparity: NDArray[np.uint16]
+    disparity: NDArray[np.integer[Any]]
     code: NDArray[np.uint8]
     fraction_bits: int = 0
     confidence: NDArray[np.uint8] | None = None
 
     def __post_init__(self) -> None:
         arrays: list[tuple[str, NDArray[Any], type]] = [
-            ("disparity", self.disparity, np.uint16),
+            ("disparity", self.disparity, np.int16 if self.disparity.dtype == np.int16 else np.uint16),
             ("code", self.code, np.uint8),
         ]
         if self.confidence is not None:

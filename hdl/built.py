@@ -19,6 +19,8 @@ def missing(config: Config) -> tuple[str, ...]:
     ]
     if config.cost == "sum" and len(config.criteria) > 1:
         gaps.append(f"a sum of {len(config.criteria)} criteria")
+    if config.min_disparity and config.whole_frame:
+        gaps.append("min_disparity of criteria without a border band")
     if config.post.any:
         gaps.append("post")
     return tuple(gaps)

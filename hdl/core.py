@@ -1,6 +1,6 @@
 """The stereo core: pixel pairs in, disparities out."""
 
-from amaranth.hdl import Cat, Module, Mux, ResetSignal, Signal
+from amaranth.hdl import Cat, Module, Mux, ResetSignal, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
@@ -112,7 +112,7 @@ class StereoCore(wiring.Component):
         m.d.comb += [
             lines.en.eq(sequencer.load),
             lines.x.eq(item.x),
-            lines.pixel.eq(Cat(item.left, item.right)),
+            lines.pixel.eq(Cat(*self._moved(m, sequencer.load, item))),
             left.eq(Cat(lines.column[r][: config.pixel.size] for r in range(config.column_rows))),
             right.eq(Cat(lines.column[r][config.pixel.size :] for r in range(config.column_rows))),
         ]
@@ -173,15 +173,27 @@ class StereoCore(wiring.Component):
         self._results(m, occurs["emit"][self._result_time], tags.o, sequencer)
         return m
 
+    def _moved(self, m: Module, load: Signal, item: data.View) -> tuple[Value, Value]:
+        """Left and right pixel, one of them late by `Config.min_disparity`: candidates then begin at 0.
+
+        The late one's columns are those of the line, but for its first ones, which are the line's before:
+        pixels that see them have no result.
+        """
+        shift = self._config.min_disparity
+        m.submodules.late = late = Delay(self._config.pixel.size, abs(shift))
+        m.d.comb += [late.en.eq(load), late.i.eq(item.left if shift < 0 else item.right)]
+        return (late.o, item.right) if shift < 0 else (item.left, late.o)
+
     def _near(self, m: Module, step: Word) -> list[Signal]:
         """For each lane, one clock after ``step``: the compensating rule's bound is reached."""
         config = self._config
         near = []
+        bound = config.compensation.from_disparity - config.min_disparity
         for lane in range(config.lanes):
             near.append(Signal(name=f"near_{lane}", reset_less=True))
             # The step's candidate is `farthest - step`.
             farthest = candidate(config, lane, 0)
-            m.d.sync += near[lane].eq(step.value + config.compensation.from_disparity <= farthest)
+            m.d.sync += near[lane].eq(step.value + bound <= farthest)
         return near
 
     def _results(self, m: Module, emit: Signal, tags: data.View, sequencer: Sequencer) -> None:
@@ -189,7 +201,9 @@ class StereoCore(wiring.Component):
         layout = result_layout(self._config)
         result = Signal(layout)
         m.d.comb += [
-            result.disparity.eq(Mux(tags.code == Validity.BORDER, 0, self._sequence.o.index)),
+            result.disparity.eq(
+                Mux(tags.code == Validity.BORDER, 0, self._sequence.o.index + self._config.min_disparity)
+            ),
             *[result[name].eq(tags[name]) for name in ("code", "sof", "eol", "eof", "damaged")],
         ]
         m.submodules.results = fifo = SyncFIFOBuffered(width=layout.size, depth=self.fifo_depth)

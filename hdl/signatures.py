@@ -4,7 +4,7 @@ Both streams are raster scans. Markers travel in the payload, so that a frame ne
 and any stall pattern leaves it intact.
 """
 
-from amaranth.hdl import unsigned
+from amaranth.hdl import Shape, unsigned
 from amaranth.lib import data
 
 from softdepth.spec.config import Config, PixelFormat
@@ -38,7 +38,7 @@ def result_layout(config: Config) -> data.StructLayout:
     """
     return data.StructLayout(
         {
-            "disparity": unsigned(config.disparity_bits),
+            "disparity": Shape(config.result_bits, signed=config.signed),
             "code": unsigned(2),
             "sof": 1,
             "eol": 1,

@@ -53,12 +53,13 @@ class _Frame:
             return self._like
         trace = fixed_model.trace(*self._pair, self._config, found.x, found.y)
         n, s = trace.numerator, trace.denominator
-        a, b = found.expected.disparity, found.got.disparity
-        if b >= len(n):
+        a, b = (each.disparity - trace.first for each in (found.expected, found.got))
+        if not 0 <= b < len(n):
             return "exclusion (the candidate's window leaves the other image)"
         if n[a] * s[b] == n[b] * s[a]:
             return "argmin (both candidates cost the same)"
-        return f"{self._lane}; {a} costs {n[a]}/{s[a]}, {b} costs {n[b]}/{s[b]}"
+        costs = (f"{k + trace.first} costs {n[k]}/{s[k]}" for k in (a, b))
+        return f"{self._lane}; {', '.join(costs)}"
 
     @cached_property
     def _like(self) -> str | None:
@@ -110,9 +111,10 @@ class _Frame:
         found = [d for d in self._expected.differences(self._got) if d.got.code < Validity.BORDER]
         better = []
         for y, x, expected, got in found[:: -(-len(found) // JUDGED)]:
-            criteria = fixed_model.trace(*self._pair, self._config, x, y).criteria
-            if got.disparity < len(criteria):
-                better.append((criteria[got.disparity] < criteria[expected.disparity]).any())
+            trace = fixed_model.trace(*self._pair, self._config, x, y)
+            a, b = (each.disparity - trace.first for each in (expected, got))
+            if 0 <= b < len(trace.criteria):
+                better.append((trace.criteria[b] < trace.criteria[a]).any())
         worse = better.count(False)
         stages = "criteria, inference or argmin" if worse else "criteria or inference"
         return f"{stages} ({worse} of {len(better)} candidates taken are better in no criterion)"

@@ -54,7 +54,16 @@ def unpack_results(payloads: Payloads, config: Config) -> NDArray[np.void]:
     results = np.zeros(payloads.shape, RESULT)
     for name in RESULT.names or ():
         results[name] = unpack_field(layout, name, payloads)
-    return results
+    return _signed(results, config.result_bits) if config.signed else results
+
+
+def _signed(results: NDArray[np.void], bits: int) -> NDArray[np.void]:
+    """Results whose disparities, of so many bits, are two's complements."""
+    kinds = [(name, "i2" if name == "disparity" else RESULT[name]) for name in RESULT.names or ()]
+    found = results.astype(kinds)
+    sign = 1 << bits - 1
+    found["disparity"] = (results["disparity"].astype(np.int32) ^ sign) - sign
+    return found
 
 
 def unpack_status(word: int) -> dict[str, int]:

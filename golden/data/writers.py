@@ -27,8 +27,13 @@ def write_pfm(path: str | Path, disparity: np.ndarray, valid: np.ndarray | None 
     write_atomically(path, header + values[::-1].astype("<f4").tobytes())
 
 
-def write_disparity_png(path: str | Path, disparity: np.ndarray, valid: np.ndarray | None = None) -> None:
+def write_disparity_png(
+    path: str | Path, disparity: np.ndarray, valid: np.ndarray | None = None, *, first: int = 0
+) -> None:
     """Write a map of disparities in pixels as 16-bit PNG in KITTI's coding: ``256 * d``, 0 = no result.
+
+    The coding has no negative numbers: where the first candidate is negative, ``256 * (d - first)`` is
+    written, which whoever reads it has to know. A PFM holds the disparities as they are.
 
     A valid disparity of 0 is written as 1 (1/256 px), as KITTI's own tools do, so that it stays
     distinguishable from no result.
@@ -39,7 +44,7 @@ def write_disparity_png(path: str | Path, disparity: np.ndarray, valid: np.ndarr
         cannot be written.
     """
     valid = _valid(disparity, valid)
-    values = np.rint(np.where(valid, disparity, 0) * float(KITTI_SCALE))
+    values = np.rint(np.where(valid, disparity - min(first, 0), 0) * float(KITTI_SCALE))
     for worst in (values.min(), values.max()):
         if not 0 <= worst <= 0xFFFF:
             raise InputError(

@@ -84,8 +84,12 @@ class Device:
         damage = self.counters().core
         if any(damage):
             raise ToolError(f"the core on the board counts broken frames: {damage}", "repeat the command")
-        codes = (words >> config.disparity_bits).astype(np.uint8)
-        found = DisparityMap(words & np.uint16((1 << config.disparity_bits) - 1), codes)
+        codes = (words >> config.result_bits).astype(np.uint8)
+        disparities = words & np.uint16((1 << config.result_bits) - 1)
+        if config.signed:
+            sign = 1 << config.result_bits - 1
+            disparities = ((disparities.astype(np.int32) ^ sign) - sign).astype(np.int16)
+        found = DisparityMap(disparities, codes)
         return from_core_view(found, config)
 
     def counters(self) -> Counters:

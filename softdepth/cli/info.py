@@ -47,10 +47,10 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     line_bits, row_bits = memory_bits(config)
     cycles = width * height * config.steps
     return {
-        "candidates": f"{config.disparities}, {config.lanes} per clock",
+        "candidates": f"{config.min_disparity} to {config.max_disparity}, {config.lanes} per clock",
         "clocks per pixel": str(config.steps),
         "smallest frame": f"{config.min_width} x {config.min_height} pixels",
-        "disparity": f"{config.disparity_bits} bits",
+        "disparity": f"{config.result_bits} bits{', signed' if config.signed else ''}",
         "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
         "latency": f"{latency} clocks after the last pixel of its window",

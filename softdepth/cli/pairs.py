@@ -134,6 +134,6 @@ def _with_truth(
         scale=scale,
         shape=(pair.height, pair.width),
         view=config.reference,
-        candidates=config.disparities,
+        candidates=config.max_disparity + 1,
     )
     return replace(pair, truth=truth, notes=(*pair.notes, *truth.notes))

@@ -131,7 +131,7 @@ def scored(truth: "Truth | None", config: Config) -> Scored | None:
 
     if truth is None:
         return None
-    return Scored.model_validate(asdict(coverage(truth, 0, config.disparities - 1)))
+    return Scored.model_validate(asdict(coverage(truth, config.min_disparity, config.max_disparity)))
 
 
 def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measurement, report: Report) -> None:
@@ -143,7 +143,7 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     disparity, code = result.disparity, result.code
     valid = np.isin(code, pictures.RESULTS)
     low, high = pictures.colour_range(disparity, valid)
-    writers.write_disparity_png(folder / "disparity.png", disparity, valid)
+    writers.write_disparity_png(folder / "disparity.png", disparity, valid, first=config.min_disparity)
     writers.write_pfm(folder / "disparity.pfm", disparity, valid)
     coloured = pictures.colour(disparity, valid, high, minimum=low, code=code)
     writers.write_picture(folder / "colour.png", coloured)

@@ -65,6 +65,7 @@ class Config(Settings):
 
     name: str = "custom"
     disparities: int = Field(default=64, ge=2, le=256)
+    min_disparity: int = Field(default=0, ge=-256, le=256)
     lanes: int = Field(default=16, ge=1, le=256)
     max_width: int = Field(default=1280, ge=8, le=8192)
     max_height: int = Field(default=1080, ge=8, le=8192)
@@ -157,7 +158,7 @@ class Config(Settings):
 
     @property
     def disparity_bits(self) -> int:
-        """Bits of a disparity ``0 .. disparities - 1``."""
+        """Bits of a candidate's number, ``0 .. disparities - 1``."""
         return (self.disparities - 1).bit_length()
 
     @property
@@ -179,8 +180,17 @@ class Config(Settings):
 
     @property
     def result_bits(self) -> int:
-        """Bits of a result's disparity, `Post.fraction_bits` of them below one pixel."""
-        return self.disparity_bits + self.post.fraction_bits
+        """Bits of a result's disparity, `Post.fraction_bits` of them below one pixel.
+
+        It is signed where there are negative candidates.
+        """
+        low, stop = (d << self.post.fraction_bits for d in (self.min_disparity, self.max_disparity + 1))
+        return max((stop - 1).bit_length(), (~low).bit_length() if low < 0 else 0) + self.signed
+
+    @property
+    def signed(self) -> bool:
+        """A result may be negative."""
+        return self.min_disparity < 0
 
     @property
     def code_bits(self) -> int:
@@ -192,13 +202,28 @@ class Config(Settings):
 
     @property
     def reach_left(self) -> int:
+        """Columns that a pixel with a result has to its left: its support, and where candidates begin."""
+        return self.window_left + max(self.min_disparity, 0)
+
+    @property
+    def reach_right(self) -> int:
+        """Columns that a pixel with a result has to its right: its support, and negative candidates."""
+        return self.window_right + max(-self.min_disparity, 0)
+
+    @property
+    def window_left(self) -> int:
         """Columns the support extends left of the reference pixel."""
         return max(0, 0, *(c.reach_left for c in self.criteria))
 
     @property
-    def reach_right(self) -> int:
+    def window_right(self) -> int:
         """Columns the support extends right of the reference pixel."""
         return max(0, 0, *(c.reach_right for c in self.criteria))
+
+    @property
+    def max_disparity(self) -> int:
+        """The last candidate."""
+        return self.min_disparity + self.disparities - 1
 
     @property
     def reach_rows(self) -> int:

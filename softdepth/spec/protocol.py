@@ -142,7 +142,7 @@ def pair_bytes(pixel: PixelFormat) -> int:
 
 def result_bytes(config: Config) -> int:
     """Bytes of a result on the wire, little endian: the disparity, and its code above it."""
-    return -(-(config.disparity_bits + CODE_BITS) // 8)
+    return -(-(config.result_bits + config.code_bits) // 8)
 
 
 def describe(config: Config, board: str, revision: str) -> bytes:

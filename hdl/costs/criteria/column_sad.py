@@ -78,7 +78,7 @@ class ColumnSad(wiring.Component):
         sums = _sum_operations(windows)
         row = row_operations(pixel)
         ready = STORED_READY if stored_rows else start(row + sums) + row
-        self._begin = ready - row
+        self._begin = min(ready - row, LEVELS - 1)  # in the columns' own clock
         self.latency = clocks(ready + sums)
         column = data.ArrayLayout(pixel_layout(pixel), windows[-1] - stored_rows)
         costs = {f"c{w}": range(column_maximum(w, pixel) + 1) for w in windows}

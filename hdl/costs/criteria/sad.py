@@ -33,7 +33,7 @@ class SadCriteria(wiring.Component):
     coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
     left, right : the columns to compare, `Config.column_rows` pixels from the top.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
-        `Config.reach_right` columns before the one that entered.
+        `Config.window_right` columns before the one that entered.
     """
 
     def __init__(self, config: Config, criteria: Sequence[Sad]) -> None:
@@ -76,7 +76,7 @@ class SadCriteria(wiring.Component):
 
         for i, criterion in enumerate(self._criteria):
             ahead = criterion.radius + criterion.dx
-            pixels = self._config.reach_right - ahead
+            pixels = self._config.window_right - ahead
             m.submodules[f"hold_{i}"] = hold = Delay(
                 sums[criterion.window].value.shape(), pixels * self._config.steps
             )

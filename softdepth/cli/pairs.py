@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from softdepth.golden.data.images import Joined
     from softdepth.golden.data.pair import StereoPair
 
-PIXEL = "rgb8"
-"""The pixels that a core takes."""
-
 
 @dataclass(frozen=True)
 class Source:
@@ -78,7 +75,7 @@ class Source:
             from softdepth.golden.data import datasets
 
             pair = datasets.load(self.dataset, reference=config.reference)
-        pair = pair.as_format(PIXEL)
+        pair = pair.as_format(config.pixel)
         for text in pair.notes:
             screen.note(f"note: {text}")
         return pair

@@ -120,8 +120,8 @@ def check_fits(
 
 
 def baseline(config: Config) -> Config:
-    """Plain 3x3 SAD with the candidates, view and size limits of `config`."""
-    shared = {"disparities", "lanes", "reference", "max_width", "max_height"}
+    """Plain 3x3 SAD with the candidates, pixels, view and size limits of `config`."""
+    shared = {"disparities", "lanes", "pixel", "reference", "max_width", "max_height"}
     same = config.model_dump(mode="json", include=shared)
     return Config.preset("sad").override([f"{key}={value}" for key, value in same.items()])
 

@@ -118,6 +118,29 @@ def test_ten_bits_score_as_eight(softdepth, tmp_path):
     assert "10 bits a channel: reduced to the 8 of the core" in outcome.err
 
 
+@pytest.mark.parametrize("pixel", ["gray12", "rgb12", "gray10"])
+def test_a_twelve_bit_camera_on_a_core_of_its_pixels(softdepth, files, tmp_path, pixel):
+    """Nothing is lost on the way to a core of the camera's depth, and nothing is tripled for a gray one."""
+    views, names = [], []
+    for path in (files.left, files.right):
+        red, green, _ = (read_image(path).pixels[:, :, c].astype(np.uint16) for c in range(3))
+        views.append(green * 16 + red // 16)
+        names.append(tmp_path / f"raw_{path.name}")
+        cv2.imwrite(str(names[-1]), views[-1])
+    outcome = softdepth("run", *names, *SMALL, "--set", f"pixel={pixel}", "--also", "sad", "-o", tmp_path)
+    assert outcome.code == 0, outcome.err
+    assert ("all three channels" in outcome.err) == (pixel == "rgb12")
+    assert ("reduced to the 10 of the core" in outcome.err) == (pixel == "gray10")
+    if pixel == "gray10":
+        views = [np.rint(view * (1023 / 4095)).astype(np.uint16) for view in views]
+    if pixel == "rgb12":
+        views = [np.dstack([view] * 3) for view in views]
+    config = Config.preset("sad").override(["disparities=16", "lanes=4", f"pixel={pixel}"])
+    expected = fixed_model.disparity(*views, config)
+    found = read_truth(tmp_path / "disparity.pfm").disparity
+    np.testing.assert_array_equal(np.nan_to_num(found), expected.disparity)
+
+
 def test_bits_of_a_dark_camera(softdepth, files, tmp_path):
     names = []
     for path in (files.left, files.right):

@@ -2,14 +2,19 @@
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from pydantic import BaseModel
 
 from softdepth.cli.app import app
 from softdepth.run.report import FILES, Accuracy, Report, Scored
+from softdepth.sim.frames import FramesResult
 from softdepth.spec.config import PRESETS, Census, Compensation, Config, Gradient, Post, Sad
+from tests.support.imports import modules
 
+SOURCE = re.compile(r"`((?:[\w.-]+/)*[\w-]+\.py|(?:golden|hdl|sim|softdepth|tests)/[\w./-]*)`")
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 
 
@@ -78,6 +83,34 @@ def test_links_lead_somewhere(project):
         for target in re.findall(r"\]\(([^)#]+)\)", document.read_text()):
             if not target.startswith("https://"):
                 assert (document.parent / target).exists(), f"{document.name}: {target}"
+
+
+def test_sources_that_are_named_exist(project):
+    """Paths as from the project's folder, and modules as they are imported."""
+    known = modules()
+    for document in documents(project):
+        text = document.read_text()
+        for path in re.findall(
+            r"`((?:[\w.-]+/)*[\w-]+\.py|(?:golden|hdl|sim|softdepth|tests)/[\w./-]*)`", text
+        ):
+            if document.name != "CHANGELOG.md":
+                assert (project / path).exists(), f"{document.name}: {path}"
+        for name, parts in re.findall(r"^from (softdepth[\w.]*) import ([\w, ]+)$", text, re.MULTILINE):
+            for part in parts.split(", "):
+                source = known[name].read_text()
+                assert f"{name}.{part}" in known or re.search(rf"\b{part}\b", source), (
+                    f"{document.name}: {part}"
+                )
+
+
+def test_the_clocks_per_pixel_are_defined_in_one_way(project):
+    """From the first pixel taken to the last, in the code as in the document."""
+    text = (project / "docs" / "report.md").read_text()
+    (row,) = (line for line in text.splitlines() if line.startswith("| `cycles_per_pixel`"))
+    taken, cycles = np.array([10, 14, 18, 30]), np.array([50, 60, 70, 1000])
+    stream = SimpleNamespace(taken=taken, cycles=cycles)
+    assert FramesResult([], stream).cycles_per_pixel == pytest.approx((30 - 10) / 3)
+    assert "from the first pixel taken to the last" in row
 
 
 def test_tasks_that_are_named_exist(project):

@@ -33,9 +33,9 @@ class Metrics:
     ----------
     known : over every pixel of known disparity.
     nonocc : over those that both views see; None where the truth does not tell them.
-    measured : over those that have a result; None where there is none.
+    measured : over those that have a measured result; None where there is none.
     paper_rmse : the paper's RMSE (eq. 1), in gray levels; see `paper_rmse`.
-    density : per cent of all pixels that have a result.
+    density : per cent of all pixels that have a measured result.
     """
 
     known: Errors
@@ -101,22 +101,31 @@ def coverage(truth: Truth, first: int, last: int) -> Coverage:
 
 
 def density(valid: np.ndarray) -> float:
-    """Per cent of a map's pixels that have a result: `valid` is bool H x W."""
+    """Per cent of a map's pixels that are measured: `valid` is bool H x W."""
     return float(100 * valid.mean())
 
 
-def evaluate(disparity: np.ndarray, truth: Truth, *, valid: np.ndarray | None = None) -> Metrics:
+def evaluate(
+    disparity: np.ndarray,
+    truth: Truth,
+    *,
+    valid: np.ndarray | None = None,
+    measured: np.ndarray | None = None,
+) -> Metrics:
     """Score a map of disparities, in pixels, against the truth of the same view.
 
     A pixel that is not `valid` (bool H x W, default: all are), or not finite, has no result. It
     stays in every figure but ``measured``, as disparity 0 and as bad: no core scores better by not
-    answering, and a border costs what it hides.
+    answering, and a border costs what it hides. `measured` (bool H x W, default: those with a result)
+    tells which pixels ``measured`` and the density are about: a filled pixel has a result, but nobody
+    measured it.
 
     Raises
     ------
     InputError : shapes that differ, or a truth without a known pixel.
     """
     disparity, valid = _prepare(disparity, valid, truth.disparity)
+    measured = valid if measured is None else _prepare(disparity, measured, truth.disparity)[1] & valid
     known = truth.known
     if not known.any():
         raise InputError("the truth holds no known disparity", "give one that does")
@@ -134,9 +143,9 @@ def evaluate(disparity: np.ndarray, truth: Truth, *, valid: np.ndarray | None = 
     return Metrics(
         known=everywhere,
         nonocc=None if truth.nonoccluded is None else over(known & truth.nonoccluded),
-        measured=over(known & valid),
+        measured=over(known & measured),
         paper_rmse=paper_rmse(disparity, truth.gray, valid=valid),
-        density=density(valid),
+        density=density(measured),
     )
 
 

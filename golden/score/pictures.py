@@ -25,9 +25,6 @@ COLOUR_MAP = ListedColormap(
 NO_RESULT = (24, 24, 27)
 """The colour of pixels without a result: near black."""
 
-RESULTS = (Validity.FULL, Validity.PARTIAL, Validity.FILLED)
-"""The codes of pixels that have a disparity."""
-
 _SHADES: dict[Validity, tuple[float, int]] = {Validity.PARTIAL: (0.55, 255), Validity.FILLED: (0.5, 128)}
 """What a disparity's colour is mixed with, and how much, where it is not a full measurement."""
 

@@ -27,7 +27,7 @@ def inspect(
     chosen = choice.configuration()
     from softdepth.inspect.inspection import inspect as look
 
-    pair = source.read(chosen)
+    pair = source.read(chosen).as_format("rgb8")
     found = look(pair.left, pair.right, chosen)
     if not choice.given:  # nobody has asked for this range
         found = replace(found, findings=[one for one in found.findings if one.code != "needless"])
@@ -42,7 +42,7 @@ def note(pair: "StereoPair", config: Config) -> None:
     from softdepth.inspect.inspection import inspect as look
     from softdepth.inspect.texts import line
 
-    plain = pair.as_format(pairs.PIXEL)
+    plain = pair.as_format("rgb8")  # what the measurements are made for
     for finding in look(plain.left, plain.right, config).findings:
         if finding.code != "same":  # reading the pair has said so
             screen.note(f"note: {line(finding)}")

@@ -10,7 +10,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-import numpy as np
 from pydantic import BaseModel
 from rich.table import Table
 
@@ -122,7 +121,8 @@ def accuracy(found: "DisparityMap", truth: "Truth | None") -> Accuracy:
 
     if truth is None:
         return Accuracy(density=density(found.valid))
-    return Accuracy.model_validate(evaluate(found.disparity, truth, valid=found.valid).as_dict())
+    scores = evaluate(found.pixels, truth, valid=found.given, measured=found.valid)
+    return Accuracy.model_validate(scores.as_dict())
 
 
 def scored(truth: "Truth | None", config: Config) -> Scored | None:
@@ -140,8 +140,7 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     from softdepth.golden.score import pictures
 
     result = measurement.result
-    disparity, code = result.disparity, result.code
-    valid = np.isin(code, pictures.RESULTS)
+    disparity, code, valid = result.pixels, result.code, result.given
     low, high = pictures.colour_range(disparity, valid)
     writers.write_disparity_png(folder / "disparity.png", disparity, valid, first=config.min_disparity)
     writers.write_pfm(folder / "disparity.pfm", disparity, valid)
@@ -204,7 +203,7 @@ def _table(report: Report) -> Table:
         ("mean absolute error", "mae", " px"),
         ("RMS error", "rmse", " px"),
         ("paper's RMSE, gray levels", "paper_rmse", ""),
-        ("pixels with a result", "density", " %"),
+        ("pixels measured", "density", " %"),
     ):
         scores = [getattr(report.metrics[engine], key) for engine in engines]
         table.add_row(label, *("-" if score is None else f"{score:.2f}{unit}" for score in scores))

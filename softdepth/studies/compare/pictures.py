@@ -54,10 +54,10 @@ def mark_differences(reference: np.ndarray, first: DisparityMap, second: Dispari
 
 def differences(reference: np.ndarray, result: DisparityMap, paper: DisparityMap) -> bytes:
     """Where the result departs from the float model, beside the result itself: a PNG file's bytes."""
-    low, high = colour_range(result.disparity, result.valid)
+    low, high = colour_range(result.pixels, result.given)
     panels = (
         ("where hardware and float model differ", mark_differences(reference, result, paper)),
-        ("hardware's disparity", colour(result.disparity, result.valid, high, minimum=low, code=result.code)),
+        ("hardware's disparity", colour(result.pixels, result.given, high, minimum=low, code=result.code)),
     )
     width = reference.shape[1]
     zoom = max(1, round(PANEL_PIXELS / width))  # a whole one: single pixels stay sharp

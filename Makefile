@@ -16,7 +16,7 @@ DEMO := out/motorcycle
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types lock export readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types docs lock export readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -72,6 +72,9 @@ types: $(READY) ## static types
 	@rm -rf $(VIEW) && mkdir -p $(VIEW)
 	@ln -s $(CURDIR)/softdepth/* $(CURDIR)/golden $(CURDIR)/hdl $(CURDIR)/sim $(VIEW)
 	@$(BIN)/pyright --pythonpath $(BIN)/python
+
+docs: $(READY) ## the documentation as a site: build/site/index.html
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file scripts/mkdocs.yml
 
 lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgrade)
 	@$(BIN)/uv pip compile pyproject.toml --group dev --group build --universal --python-version 3.11 \

@@ -1,6 +1,9 @@
 """The documents name what is there, and what they name is there."""
 
 import re
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -119,3 +122,44 @@ def test_tasks_that_are_named_exist(project):
         for tasks in re.findall(r"(?:`|^)make ([a-z -]+)", document.read_text(), re.MULTILINE):
             named = re.split(r" {2,}", tasks)[0].split()
             assert set(named) <= goals, f"{document.name}: make {tasks}"
+
+
+def test_the_index_and_the_site_lead_to_every_page(project):
+    index = (project / "docs" / "index.md").read_text()
+    linked = set(re.findall(r"\]\(([^)#]+)\)", index))
+    pages = {path.name for path in (project / "docs").glob("*.md")} - {"index.md"}
+    assert linked == {*pages, *(f"../{name}" for name in (*DOCUMENTS, "LICENSE"))}
+    site = (project / "scripts" / "mkdocs.yml").read_text().split("\nnav:\n", 1)[1]
+    listed = re.findall(r"([a-z-]+\.md)$", site, re.MULTILINE)
+    assert len(listed) == len(set(listed))
+    assert {*pages, "index.md"} <= set(listed)
+    assert re.findall(r"^  - (\w+):", site, re.MULTILINE) == re.findall(r"^## (\w+)", index, re.MULTILINE)
+
+
+def test_the_site_is_built_with_warnings_as_errors(project):
+    assert "make docs" in (project / ".ci" / "run").read_text().splitlines()
+    assert re.search(r"mkdocs build .*--strict", (project / "Makefile").read_text())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["[gone](gone.md)", "[gone](cli.md#gone)", ""])
+def test_the_site_fails_for_what_is_wrong(project, tmp_path, fault):
+    for name in ("docs", "scripts"):
+        shutil.copytree(project / name, tmp_path / name)
+    for name in (*DOCUMENTS, "LICENSE"):
+        shutil.copy(project / name, tmp_path)
+    with (tmp_path / "docs" / "golden.md").open("a") as page:
+        page.write(f"\n{fault}\n")
+    command = [
+        sys.executable,
+        "-m",
+        "mkdocs",
+        "build",
+        "-q",
+        "-s",
+        "-f",
+        str(tmp_path / "scripts/mkdocs.yml"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode != 0) == bool(fault), done.stderr
+    assert (tmp_path / "build" / "site" / "golden.html").exists() or fault

@@ -234,3 +234,24 @@ def test_a_real_standard_input(files, tmp_path):
         )
     assert done.returncode == 0, done.stderr
     assert re.search(r"^stdin, 48x30", done.stdout, re.MULTILINE)
+
+
+def test_sixteenths_and_filled_pixels(softdepth, files, tmp_path):
+    """Files are in pixels; a filled pixel has a disparity and is scored, but nobody measured it."""
+    out = tmp_path / "out"
+    small = ("--preset", "robust-small", "--disparities", 16, "--lanes", 4, "--engine", "fixed")
+    outcome = softdepth("run", files.left, files.right, "--gt", files.truth, *small, "-o", out)
+    assert outcome.code == 0, outcome.err
+    config = Config.load(out / "config.toml")
+    found = fixed_model.disparity(*(read_image(path).pixels for path in (files.left, files.right)), config)
+    assert config.post.fraction_bits == 4
+    assert (found.code == Validity.FILLED).any()
+    written = read_truth(out / "disparity.pfm").disparity
+    np.testing.assert_array_equal(written[found.given], found.pixels[found.given])
+    assert np.isnan(written[~found.given]).all()
+    scores = report(out)["metrics"]["fixed"]
+    assert scores["density"] == pytest.approx(100 * found.valid.mean())
+    truth = read_truth(files.truth)
+    error = np.abs(found.pixels - truth.disparity)[truth.known]
+    assert scores["bad1"] == pytest.approx(100 * np.mean((error > 1) | ~found.given[truth.known]))
+    assert scores["measured_mae"] == pytest.approx(error[found.valid[truth.known]].mean(), rel=1e-5)

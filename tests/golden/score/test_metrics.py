@@ -9,7 +9,7 @@ import pytest
 
 from softdepth.golden.data.datasets import load
 from softdepth.golden.data.truth import Truth, from_disparity
-from softdepth.golden.score.metrics import evaluate, paper_rmse
+from softdepth.golden.score.metrics import coverage, evaluate, paper_rmse
 from softdepth.spec.errors import InputError
 
 KEYS = ["bad1", "bad2", "mae", "rmse"]
@@ -165,3 +165,24 @@ def test_shapes_must_agree() -> None:
 def test_unknown_truth() -> None:
     with pytest.raises(InputError, match="no known disparity"):
         evaluate(np.zeros((2, 2)), truth_of(np.full((2, 2), np.nan)))
+
+
+def test_coverage_counts_what_no_candidate_reaches() -> None:
+    truth = from_disparity(np.array([[-0.5, 0, 15, 15.25, np.nan, 40]]))
+    found = coverage(truth, 0, 15)
+    assert (found.scored, found.outside) == (5, 3)
+    assert found.scored_percent == pytest.approx(500 / 6)
+    assert found.outside_percent == pytest.approx(60)
+    assert "60.00 % of them lie outside 0 .. 15, and count as wrong, not as absent" in str(found)
+    assert coverage(truth, -1, 62).outside == 0
+    assert "outside" not in str(coverage(truth, -1, 62))
+
+
+def test_filled_pixels_are_scored_but_not_measured() -> None:
+    truth = from_disparity(np.array([[4.0, 4, 4, 4]]))
+    given, measured = np.array([[True, True, True, False]]), np.array([[True, False, True, False]])
+    found = evaluate(np.array([[4, 9, 6, 4]]), truth, valid=given, measured=measured)
+    assert found.known.bad1 == 75
+    assert found.measured is not None
+    assert (found.measured.bad1, found.measured.mae) == (50, 1)
+    assert found.density == 50

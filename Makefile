@@ -13,6 +13,8 @@ LOCKED := $(VENV)/.locked
 READY := $(VENV)/.ready
 SOURCES := softdepth golden hdl sim tests
 DEMO := out/motorcycle
+# Motorcycle's calibration, as scikit-image's documentation gives it
+CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.193 254.877
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -22,8 +24,9 @@ help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/motorcycle
-	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) -o $(DEMO)
+	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) $(CAMERAS) -o $(DEMO)
 	@echo "left, right and depth: $(CURDIR)/$(DEMO)/overview.png"
+	@echo "points to turn with the mouse: $(CURDIR)/$(DEMO)/view.html"
 
 test: $(READY) ## the whole test suite (a part of it: make test TESTS=tests/golden)
 	@$(BIN)/pytest -n auto --dist worksteal $(TESTS)

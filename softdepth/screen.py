@@ -26,12 +26,12 @@ def note(text: str) -> None:
 
 
 @contextmanager
-def progress(what: str, pixels: int) -> Iterator[Advance]:
+def progress(what: str, pixels: int, unit: str = "pixels") -> Iterator[Advance]:
     """Show how far a long work is: a bar on a terminal, a line every 20 % elsewhere."""
     target = console(stderr=True)
     if not target.is_terminal:
         note(f"{what} ...")
-        yield _logger(what, pixels)
+        yield _logger(what, pixels, unit)
         return
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=target, transient=True) as bar:
@@ -47,7 +47,7 @@ def duration(seconds: float) -> str:
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h {minutes % 60} min"
 
 
-def _logger(what: str, pixels: int) -> Advance:
+def _logger(what: str, pixels: int, unit: str) -> Advance:
     shown = 0
     start = time.monotonic()
 
@@ -57,7 +57,7 @@ def _logger(what: str, pixels: int) -> Advance:
         if percent // LOG_EVERY_PERCENT > shown // LOG_EVERY_PERCENT:
             left = (time.monotonic() - start) / done * (pixels - done)
             ends = f", about {duration(left)} left" if done < pixels else ""
-            note(f"{what}: {done} of {pixels} pixels ({percent} %){ends}")
+            note(f"{what}: {done} of {pixels} {unit} ({percent} %){ends}")
             shown = percent
 
     return advance

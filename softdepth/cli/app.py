@@ -20,8 +20,10 @@ from softdepth.cli import (
     listing,
     options,
     paper,
+    ros,
     run,
     utilization,
+    view,
 )
 from softdepth.spec.errors import InputError
 
@@ -33,6 +35,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command("run")(run.run)
+app.command("view")(view.view)
+app.command("ros")(ros.ros)
 app.command("inspect")(inspect.inspect)
 app.command("board")(board.board)
 app.command("compare")(compare.compare)

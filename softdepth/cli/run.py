@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from softdepth import ending, screen
-from softdepth.cli import inspect, options, pairs
+from softdepth.cli import inspect, metres, options, pairs
 from softdepth.cli.bundle import bundled
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -32,6 +32,8 @@ Also = Annotated[
 def run(
     source: pairs.Source,
     choice: options.Choice,
+    cameras: metres.Cameras,
+    kept: metres.Kept,
     engine: Annotated[
         Literal["rtl", "fixed", "float"],
         typer.Option("--engine", help="What computes the result: simulated gateware, or a model of it."),
@@ -43,15 +45,19 @@ def run(
 ) -> None:
     """Compute the depth of a stereo pair and report what it took."""
     further = compared(also)
+    kept.choice()
     from softdepth import files as results
     from softdepth.run import measure, report
 
     pair, chosen = source.read_for(choice)
+    geometry = cameras.geometry(pair.width, pair.height) if cameras.given else None
     inspect.note(pair, chosen)
-    with results.result_folder(output, stale=report.FILES) as folder:
+    with results.result_folder(output, stale=(*report.FILES, *metres.FILES)) as folder:
         measurement = measure.measure(pair, chosen, engine, also=further)
         summary = report.summarise(pair, chosen, measurement)
         report.write(folder, pair, chosen, measurement, summary)
+        if geometry is not None:
+            metres.write(folder, measurement.result, geometry, kept, pair, chosen)
     report.show(summary)
     print(f"results: {output}")
     fail_on_mismatch(pair, chosen, measurement)

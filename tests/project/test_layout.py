@@ -21,6 +21,7 @@ PERMITTED: dict[str, set[str]] = {
     "export": {"hdl", "spec"},
     "rig": {"spec"},
     "metric": {"rig", "golden", "spec", "files"},
+    "ros": {"metric", "rig", "spec"},
     "view": {"metric", "rig", "golden", "spec", "files"},
     "board": {"golden", "spec"},
     "run": {"board", "golden", "sim", "spec", *BASE},

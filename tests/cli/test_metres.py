@@ -73,7 +73,7 @@ def test_view_writes_a_page(softdepth, files: Files, tmp_path):
     assert "depth in metres needs" in softdepth("view", files.left, files.right, *SMALL, "-o", page).error
 
 
-def test_ros(softdepth, frames, tmp_path):
+def test_ros(softdepth, frames, tmp_path):  # noqa: F811
     bag = record(tmp_path / "bag", Recording(frames(2, seed=1), frames(2, seed=2)))
     outcome = softdepth("ros", bag, *SMALL, "-o", tmp_path / "depth")
     assert (outcome.code, outcome.out) == (0, f"/stereo: 2 pairs\nbag: {tmp_path / 'depth'}\n"), outcome.err
@@ -81,7 +81,7 @@ def test_ros(softdepth, frames, tmp_path):
 
 
 @pytest.mark.parametrize("rig", ["/left", "left,right", "/a,/b,/c,/d"])
-def test_a_rig_that_is_none(softdepth, tmp_path, frames, rig):
+def test_a_rig_that_is_none(softdepth, tmp_path, frames, rig):  # noqa: F811
     bag = record(tmp_path / "bag", Recording(frames(1), frames(1)))
     assert "is not LEFT,RIGHT" in softdepth("ros", bag, "--rig", rig, "-o", tmp_path / "o").error
 

@@ -70,7 +70,7 @@ def test_a_cost_without_memberships_is_refused(softdepth, files, tmp_path):
     out = tmp_path / "new" / "out"
     outcome = softdepth("compare", files.left, files.right, *SMALL, "--preset", "sad", "-o", out)
     assert outcome.code == 2
-    assert "cost is 'sad'" in outcome.error
+    assert "cost is 'sum'" in outcome.error
     assert not out.parent.exists()
 
 

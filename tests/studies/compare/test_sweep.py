@@ -108,5 +108,5 @@ def test_enough_is_where_it_stays_good():
 
 
 def test_a_configuration_without_memberships_is_refused():
-    with pytest.raises(ConfigError, match="cost is 'sad'"):
+    with pytest.raises(ConfigError, match="cost is 'sum'"):
         sweeping.check_sweepable(Config.preset("sad"))

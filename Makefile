@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types docs lock export readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types docs lock export reading readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -104,6 +104,9 @@ program: $(READY) ## load the bitstream into the board that is plugged in, built
 # Hours at first; a netlist that was measured before is not again. A part of it: ARGS=--quick.
 utilization: $(READY) ## measure area and speed: docs/utilization.md
 	@$(BIN)/softdepth utilization $(ARGS)
+
+reading: $(READY) ## exported cores read by yosys: the table in docs/flow.md
+	@$(BIN)/python -m softdepth.studies.reading
 
 readme: demo ## renew the figures and the picture in README.md from the demo's results
 	@$(BIN)/python -m softdepth.studies.readme $(DEMO)

@@ -58,8 +58,9 @@ def _use(interface: Interface) -> Iterator[str]:
         f" at 1 it can be taken {interface.latency} clocks after that pixel is, where pixels come slowly, and"
         f" {interface.full_rate_latency} clocks after it where they are always on offer: some wait in a queue"
         " then. The results of a frame's last rows and columns follow by themselves.",
-        f"Frames: {c.min_width} x {c.min_height} to {c.max_width} x {c.max_height} pixels. Smaller ones have"
-        " no place for the window: none of their results is a measurement. The first line gives the width.",
+        f"Frames: {c.min_width} x {c.min_height} to {c.max_width} x {c.max_height} pixels. Lower ones"
+        " have no result that is a measurement, narrower ones are filled and marked as damaged."
+        " A frame's first line gives its width.",
         "Memories have no initial words in synthesis, and need none; simulators find them cleared.",
     ):
         yield from textwrap.wrap(

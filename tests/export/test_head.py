@@ -141,3 +141,10 @@ def test_the_right_view_is_refused_and_the_way_to_it_is_right() -> None:
     swapped = pair[1][:, ::-1], pair[0][:, ::-1]
     core_view = disparity(*swapped, SMALL["sad"]).disparity[:, ::-1]
     assert np.array_equal(core_view, disparity(*pair, right).disparity)
+
+
+def test_codes_stand_in_the_documents(project: Path) -> None:
+    text = (project / "docs/gateware.md").read_text()
+    assert [f"| {code.value} | `{code.name}` | {code.meaning} |" in text for code in Validity] == [
+        True
+    ] * len(Validity)

@@ -20,7 +20,7 @@ MEGABYTES = 1500
     ("preset", "changes"), [*((preset, []) for preset in built_presets()), ("paper", ["lanes=32"])]
 )
 def test_cores_of_full_size_are_read(preset: str, changes: list[str]) -> None:
-    """Of 1280 columns, by default and `paper` of 32 lanes: in seconds, without a word that is set one by one."""
+    """1280 columns wide, `paper` with 32 lanes too: in seconds, and no word is set by itself."""
     text = export_core(Config.preset(preset).override(["max_width=1280", *changes])).verilog
     found = read(text, "proc")
     assert found.seconds < SECONDS_TO_READ
@@ -45,7 +45,7 @@ FAMILIES = {
     "synth_ice40": ("SB_RAM40_4K", 4096),
     "synth_nexus": ("PDPSC16K", 18432),
 }
-"""Commands of yosys, the block RAM that each has for a memory of one write and one read port, and its bits."""
+"""Commands of yosys, with the block RAM of each for one write and one read port, and its bits."""
 
 
 @pytest.mark.slow

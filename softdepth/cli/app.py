@@ -14,6 +14,7 @@ from softdepth.cli import (
     board,
     build,
     compare,
+    evaluate,
     export,
     info,
     inspect,
@@ -40,6 +41,7 @@ app.command("ros")(ros.ros)
 app.command("inspect")(inspect.inspect)
 app.command("board")(board.board)
 app.command("compare")(compare.compare)
+app.command("evaluate")(evaluate.evaluate)
 app.command("export")(export.export)
 app.command("build")(build.build)
 app.command("utilization")(utilization.utilization)

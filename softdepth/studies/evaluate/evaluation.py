@@ -1,0 +1,109 @@
+"""What ``softdepth evaluate`` does: the work, the files, and the lines on the screen."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.table import Table
+
+from softdepth import screen
+from softdepth.files import result_folder, write_atomically
+from softdepth.spec.config import Config
+from softdepth.spec.errors import InputError
+from softdepth.studies import markers
+from softdepth.studies.evaluate import pages, plots, tables, variants, work
+from softdepth.studies.evaluate.degrade import WAYS
+from softdepth.studies.evaluate.document import CLEAN, Evaluation
+from softdepth.studies.evaluate.scenes import Scene
+
+LAST = "evaluate.json"
+FILES = ("accuracy.md", "accuracy.html", "confidence.png")
+"""Everything that is written beside ``evaluate.json``."""
+EXIT_MISMATCH = 1
+RIVALS_SHOWN = ("hh",)
+"""OpenCV's matchers whose maps the page shows."""
+PRESETS_SHOWN = 2
+
+
+@dataclass
+class Outcome:
+    """An evaluation, and the pictures of each scene."""
+
+    evaluation: Evaluation
+    pictures: dict[str, dict[str, bytes]]
+
+
+def evaluate(
+    scenes: Sequence[Scene],
+    configs: Mapping[str, Config],
+    *,
+    engine: work.Engine = "fixed",
+    degraded: bool = False,
+    fuzzy: bool = False,
+    processes: int = 1,
+) -> Outcome:
+    """Evaluate configurations, by name, on scenes, showing progress.
+
+    `degraded` adds the pairs of `degrade.WAYS`, `fuzzy` the configurations of `variants`, in the fixed model's
+    maps of clean pairs. Raises `InputError` for scenes that cannot be read or that a core cannot take.
+    """
+    extra = {**variants.fuzzy_or_not(), **variants.paper_on_gradient()} if fuzzy else {}
+    everything = {**configs, **extra}
+    ways = list(WAYS) if degraded else []
+    shown = [*list(configs)[:PRESETS_SHOWN], *RIVALS_SHOWN]
+    done = work.run(scenes, work.Plan(everything, list(extra), ways, engine, shown), processes)
+    evaluation = Evaluation(
+        engine=engine,
+        presets={name: config.model_dump(mode="json") for name, config in everything.items()},
+        hashes={name: config.hash for name, config in everything.items()},
+        fuzzy=list(extra),
+        methods=work.titles(everything),
+        ways=[CLEAN, *ways],
+        scenes=[one.result for one in done],
+    )
+    return Outcome(evaluation, {one.result.name: one.pictures for one in done})
+
+
+def check_document(path: Path | None) -> None:
+    """Raise `InputError` unless the document is there and has its markers, before the long work."""
+    if path is not None:
+        markers.renew(_read(path), str(path), pages.PART, "")
+
+
+def write(folder: Path, outcome: Outcome, document: Path | None = None) -> None:
+    """Write every file into `folder`, and renew the generated part of `document`."""
+    found = outcome.evaluation
+    text = pages.markdown(found)
+    with result_folder(folder, stale=FILES, last=LAST) as place:
+        (place / "accuracy.md").write_text(f"# Accuracy\n\n{text}\n")
+        (place / "accuracy.html").write_text(pages.page(found, outcome.pictures))
+        if any(scene.sparsification for scene in found.scenes):
+            (place / "confidence.png").write_bytes(plots.confidence(found))
+        (place / LAST).write_text(found.model_dump_json(indent=1) + "\n")
+    if document is not None:
+        renewed = markers.renew(_read(document), str(document), pages.PART, text)
+        write_atomically(document, renewed.encode())
+
+
+def show(outcome: Outcome) -> None:
+    """Print the table of all methods, and what gateware and model differ in."""
+    head, *rows = tables.overview(outcome.evaluation).rows
+    table = Table(*head, box=None)
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for row in rows:
+        table.add_row(*(text.strip("`") for text in row))
+    screen.console().print(table)
+    for scene in outcome.evaluation.scenes:
+        for name, count in scene.mismatches.items():
+            if count:
+                screen.note(
+                    f"error: gateware and fixed-point model of {name} differ in {count} pixels of {scene.name}"
+                )
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot read '{path}'", "give a Markdown file with markers") from error

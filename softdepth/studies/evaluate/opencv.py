@@ -1,0 +1,72 @@
+"""OpenCV's matchers, brought to what ours give: a disparity in every pixel.
+
+Their left band without a result, as wide as the candidates, is avoided by padding both views on the left by so
+many pixels. What they then leave invalid is filled as our own results are. `with_post` gives their results to
+our filters instead.
+"""
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from softdepth.golden.front.pair import Image
+from softdepth.golden.post.fill import fill
+from softdepth.golden.post.island import on_an_island
+from softdepth.golden.post.masked_median import along_row, down_column
+from softdepth.golden.post.median import median
+from softdepth.golden.post.sixteenths import UNITS
+from softdepth.spec.post import Post
+
+BLOCK, SGBM_BLOCK = 15, 3
+TITLES = {"bm15": "OpenCV BM15", "sgbm": "OpenCV SGBM", "hh": "OpenCV SGBM HH"}
+
+Raw = NDArray[np.int16]
+"""Disparities in sixteenths of a pixel; negative where there is none."""
+
+
+def match(name: str, left: Image, right: Image, candidates: int) -> Raw:
+    """What the matcher `name` of `TITLES` finds in a pair of uint8 RGB images."""
+    multiple = -(-candidates // 16) * 16  # they take multiples alone
+    left, right = (
+        cv2.copyMakeBorder(np.ascontiguousarray(view), 0, 0, multiple, 0, cv2.BORDER_REPLICATE)
+        for view in (left, right)
+    )
+    if name == "bm15":
+        gray = (cv2.cvtColor(view, cv2.COLOR_RGB2GRAY) for view in (left, right))
+        found = cv2.StereoBM.create(multiple, BLOCK).compute(*gray)
+    else:
+        channels = 3
+        mode = cv2.STEREO_SGBM_MODE_HH if name == "hh" else cv2.STEREO_SGBM_MODE_SGBM
+        found = cv2.StereoSGBM.create(
+            minDisparity=0,
+            numDisparities=multiple,
+            blockSize=SGBM_BLOCK,
+            P1=8 * channels * SGBM_BLOCK**2,
+            P2=32 * channels * SGBM_BLOCK**2,
+            disp12MaxDiff=1,
+            uniquenessRatio=10,
+            speckleWindowSize=100,
+            speckleRange=2,
+            mode=mode,
+        ).compute(left, right)
+    return found[:, multiple:].astype(np.int16)
+
+
+def filled(raw: Raw) -> NDArray[np.float32]:
+    """In pixels, filled from the smaller neighbour in the row."""
+    values = fill(np.maximum(raw, 0).astype(np.uint16), raw >= 0)
+    return values.astype(np.float32) / UNITS
+
+
+def with_post(raw: Raw, image: Image, post: Post) -> NDArray[np.float32]:
+    """In pixels, after our island test, filling and medians; `image` is the left view."""
+    valid = raw >= 0
+    values = np.maximum(raw, 0).astype(np.uint16)
+    valid &= ~on_an_island(valid, post.island)
+    values, everywhere = fill(values, valid), np.ones(raw.shape, bool)
+    if post.median:
+        values = median(values, everywhere)
+    if post.masked_median:
+        for direction in (along_row, down_column):
+            values = direction(values, everywhere, image, post.masked_median, post.like)
+    return values.astype(np.float32) / UNITS

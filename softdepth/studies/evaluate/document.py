@@ -15,8 +15,8 @@ class SceneResult(BaseModel):
 
     Members
     -------
-    levels, bad_levels : for each confidence 0 .. 255, how many measured pixels of known truth have it, and how
-        many of those are off by more than 1 px.
+    levels, bad_levels : for each confidence 0 .. 255, how many measured pixels of known truth have it, and
+        how many of those are off by more than 1 px.
     mismatches : pixels in which the simulated gateware departs from its model, by preset; empty where
         it was not simulated.
     """

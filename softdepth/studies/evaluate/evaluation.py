@@ -44,8 +44,8 @@ def evaluate(
 ) -> Outcome:
     """Evaluate configurations, by name, on scenes, showing progress.
 
-    `degraded` adds the pairs of `degrade.WAYS`, `fuzzy` the configurations of `variants`, in the fixed model's
-    maps of clean pairs. Raises `InputError` for scenes that cannot be read or that a core cannot take.
+    `degraded` adds the pairs of `degrade.WAYS`; `fuzzy` the configurations of `variants`, which are scored
+    on clean pairs alone. Raises `InputError` for scenes that cannot be read or that a core cannot take.
     """
     extra = {**variants.fuzzy_or_not(), **variants.paper_on_gradient()} if fuzzy else {}
     everything = {**configs, **extra}
@@ -98,7 +98,8 @@ def show(outcome: Outcome) -> None:
         for name, count in scene.mismatches.items():
             if count:
                 screen.note(
-                    f"error: gateware and fixed-point model of {name} differ in {count} pixels of {scene.name}"
+                    f"error: gateware and fixed-point model of {name} differ in {count} pixels of"
+                    f" {scene.name}"
                 )
 
 

@@ -1,8 +1,8 @@
 """OpenCV's matchers, brought to what ours give: a disparity in every pixel.
 
-Their left band without a result, as wide as the candidates, is avoided by padding both views on the left by so
-many pixels. What they then leave invalid is filled as our own results are. `with_post` gives their results to
-our filters instead.
+Their left band without a result, as wide as the candidates, is avoided by padding both views on the left
+by so many pixels. What they then leave invalid is filled as our own results are. `with_post` gives their
+results to our filters instead.
 """
 
 import cv2
@@ -27,12 +27,12 @@ Raw = NDArray[np.int16]
 def match(name: str, left: Image, right: Image, candidates: int) -> Raw:
     """What the matcher `name` of `TITLES` finds in a pair of uint8 RGB images."""
     multiple = -(-candidates // 16) * 16  # they take multiples alone
-    left, right = (
+    views = (
         cv2.copyMakeBorder(np.ascontiguousarray(view), 0, 0, multiple, 0, cv2.BORDER_REPLICATE)
         for view in (left, right)
     )
     if name == "bm15":
-        gray = (cv2.cvtColor(view, cv2.COLOR_RGB2GRAY) for view in (left, right))
+        gray = (cv2.cvtColor(view, cv2.COLOR_RGB2GRAY) for view in views)
         found = cv2.StereoBM.create(multiple, BLOCK).compute(*gray)
     else:
         channels = 3
@@ -48,14 +48,14 @@ def match(name: str, left: Image, right: Image, candidates: int) -> Raw:
             speckleWindowSize=100,
             speckleRange=2,
             mode=mode,
-        ).compute(left, right)
+        ).compute(*views)
     return found[:, multiple:].astype(np.int16)
 
 
 def filled(raw: Raw) -> NDArray[np.float32]:
     """In pixels, filled from the smaller neighbour in the row."""
     values = fill(np.maximum(raw, 0).astype(np.uint16), raw >= 0)
-    return values.astype(np.float32) / UNITS
+    return values.astype(np.float32) / np.float32(UNITS)
 
 
 def with_post(raw: Raw, image: Image, post: Post) -> NDArray[np.float32]:
@@ -69,4 +69,4 @@ def with_post(raw: Raw, image: Image, post: Post) -> NDArray[np.float32]:
     if post.masked_median:
         for direction in (along_row, down_column):
             values = direction(values, everywhere, image, post.masked_median, post.like)
-    return values.astype(np.float32) / UNITS
+    return values.astype(np.float32) / np.float32(UNITS)

@@ -19,7 +19,7 @@ FEW = 200
 
 
 def confidence(evaluation: Evaluation) -> bytes:
-    """Two panels, a line a preset: the sparsification curve, and bad pixels by confidence. A PNG file's bytes."""
+    """A PNG file of two panels, a line a preset: sparsification curves, and bad pixels by confidence."""
     figure = Figure(figsize=(10, 3.9), dpi=120, facecolor="white", layout="constrained")
     canvas = FigureCanvasAgg(figure)
     left, right = figure.subplots(1, 2)

@@ -50,8 +50,8 @@ class Scene:
 def find(folders: Sequence[Path], leave_out: Sequence[str] = ()) -> list[Scene]:
     """Every scene in some folders, each of which is one itself or holds one a subfolder; by name.
 
-    A scene has ``left.png``, ``right.png`` and ``truth.pfm``, or as Middlebury's ``im2``, ``im6`` and ``disp2``
-    (and ``disp6``).
+    A scene has ``left.png``, ``right.png`` and ``truth.pfm``, or, as Middlebury's, ``im2``, ``im6`` and
+    ``disp2`` (and ``disp6``).
 
     Raises
     ------

@@ -96,7 +96,7 @@ def _curve(error: NDArray[np.floating], order: NDArray[np.intp]) -> list[float]:
 def by_confidence(
     disparity: NDArray[np.floating], truth: Truth, measured: NDArray[np.bool_], confidence: NDArray[np.uint8]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Of each confidence 0 .. 255: how many measured pixels of known disparity, and how many off by > 1 px."""
+    """Of each confidence 0 .. 255: how many measured pixels of known truth, and how many off by > 1 px."""
     pixels = truth.known & measured
     bad = np.abs(disparity - np.where(truth.known, truth.disparity, 0))[pixels] > 1
     levels = confidence[pixels]

@@ -9,8 +9,11 @@ RIVALS = {"hh": "HH", "sgbm": "SGBM"}
 """Whose errors ours are divided by."""
 
 
+_FOUR = ("bad-1 non-occluded", "bad-2", "bad-1 all", "bad-2")
+
+
 class Table(NamedTuple):
-    """A heading, what it says, and rows; the first is the head, and the first `names` columns are no numbers."""
+    """A heading, what it says, and rows: the first is the head. The first `names` columns hold no numbers."""
 
     title: str
     text: str
@@ -88,7 +91,7 @@ def by_way(evaluation: Evaluation) -> Table:
 
 def fuzzy(evaluation: Evaluation) -> Table:
     """The costs over the same criteria, and the paper's method on the gradient."""
-    rows = [["cost", "bad-1 non-occluded", "bad-2", "bad-1 all", "bad-2", "error", "of HH's"]]
+    rows = [["cost", *_FOUR, "error", "of HH's"]]
     for method in evaluation.fuzzy:
         s = evaluation.score(method)
         values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
@@ -115,9 +118,9 @@ def confidence(evaluation: Evaluation) -> Table:
             )
             rows.append([f"`{name}`", *(f"{sum(v) / len(v):.2f}" for v in figures)])
     text = (
-        "Per cent of the measured pixels of known truth, mean of the scenes. *Area* is under the sparsification"
-        " curve (the mean of it, as the least sure 0 to 95 % are left out), *best area* were the worst errors"
-        " left out first."
+        "Per cent of the measured pixels of known truth, mean of the scenes. *Area* is that under the"
+        " sparsification curve: the mean of it, as the least sure 0 to 95 % are left out. *Best area* is the"
+        " same with the worst errors left out first."
     )
     return Table("Confidence", text, rows)
 

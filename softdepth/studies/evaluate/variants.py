@@ -13,7 +13,7 @@ _GRADIENT_NEST = [{"window": w, "source": "gradient", "label_bits": 10} for w in
 
 
 def fuzzy_or_not() -> dict[str, Config]:
-    """By name: the sum, and fuzzy inference with each operator, of the same three criteria and post-processing."""
+    """By name: the sum, and fuzzy inference with each operator, of the same criteria and post-processing."""
     base = Config.preset("robust").model_dump(mode="json") | {"criteria": _CRITERIA, "max_multipliers": 9999}
     found = {"sum of three": Config.from_dict(base | {"name": "sum of three"})}
     for operator in OPERATORS:

@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 import typer
 
-from softdepth.cli import options
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 
@@ -24,7 +23,10 @@ def evaluate(
         list[str] | None,
         typer.Option("--preset", metavar="NAME", help=f"Repeatable (the default: {', '.join(PRESETS)})."),
     ] = None,
-    assignments: options.Assignments = None,
+    assignments: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Change one key of all of them; repeatable."),
+    ] = None,
     engine: Annotated[
         Literal["fixed", "rtl"],
         typer.Option("--engine", help="What gives our maps: the fixed model, or the simulated gateware."),

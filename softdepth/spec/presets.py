@@ -33,6 +33,7 @@ PRESETS: dict[str, dict[str, Any]] = {
         "post": _ROBUST,
     },
     "robust-gray": {
+        "pixel": "gray8",
         "cost": "sum",
         "lanes": 32,
         "criteria": [{"kind": "census", "like": 20}, {"kind": "gradient"}],

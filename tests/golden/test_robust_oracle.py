@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from softdepth.golden import fixed_model
+from softdepth.golden.data.pair import StereoPair
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
 
@@ -34,7 +35,8 @@ def oracle():
 
 def agree(oracle, preset, left, right, disparities=64):
     config = Config.preset(preset).override([f"disparities={disparities}", "lanes=1", "max_multipliers=999"])
-    got = fixed_model.disparity(left, right, config)
+    views = StereoPair(left, right, preset).as_format(config.pixel)
+    got = fixed_model.disparity(views.left, views.right, config)
     expected, measured = oracle.disparity(left, right, disparities, **KEYS[preset])
     np.testing.assert_array_equal(got.disparity, expected)
     np.testing.assert_array_equal(got.code < Validity.BORDER, measured)
@@ -45,7 +47,7 @@ def crop(path, size):
     return image[: size[0], : size[1]]
 
 
-@pytest.mark.parametrize("preset", ["robust", "robust-small"])
+@pytest.mark.parametrize("preset", KEYS)
 @pytest.mark.parametrize("scene", ["teddy", "cones", "venus"])
 def test_middlebury(oracle, data_dir, scene, preset):
     size = (999, 999) if (scene, preset) == ("teddy", "robust") else (120, 240)
@@ -53,7 +55,7 @@ def test_middlebury(oracle, data_dir, scene, preset):
     agree(oracle, preset, *pair)
 
 
-@pytest.mark.parametrize("preset", ["robust", "robust-small"])
+@pytest.mark.parametrize("preset", KEYS)
 @pytest.mark.parametrize("scene", ["plastic", "art", "eth_playground", "qPipes"])
 def test_scenes(oracle, scene, preset):
     folder = os.environ.get(SCENES)
@@ -66,7 +68,7 @@ def test_scenes(oracle, scene, preset):
     ("height", "width", "disparities"),
     [(1, 1, 2), (1, 9, 4), (2, 2, 3), (5, 4, 8), (9, 13, 5), (33, 40, 64), (40, 7, 16), (17, 70, 32)],
 )
-@pytest.mark.parametrize("preset", ["robust", "robust-small"])
+@pytest.mark.parametrize("preset", KEYS)
 def test_small_frames(oracle, preset, height, width, disparities):
     rng = np.random.default_rng(height * width)
     scene = rng.integers(0, 256, (height, width + 3, 3), dtype=np.uint8) // 16 * 16

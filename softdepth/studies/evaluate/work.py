@@ -22,8 +22,6 @@ from softdepth.studies.evaluate.scenes import Scene
 from softdepth.studies.evaluate.score import by_confidence, score, sparsification
 
 Engine = Literal["fixed", "rtl"]
-PIXELS = {"robust-gray": "gray8"}
-"""What a preset sees of a pair, where it is not its colours."""
 WITH_POST = ("sgbm", "hh")
 """OpenCV's matchers that are shown with our post-processing too."""
 POST = Post(check=True, island=8, fill=True, median=5, masked_median=9, like=32)
@@ -126,7 +124,7 @@ def everywhere(found: DisparityMap) -> np.ndarray:
 
 def _map(pair: StereoPair, config: Config, engine: Engine) -> tuple[DisparityMap, int | None]:
     """A configuration's map, and the pixels in which gateware and model differ, if the gateware was run."""
-    views = pair.as_format(PIXELS.get(config.name, "rgb8")).as_format("rgb8")
+    views = pair.as_format(config.pixel)
     model = fixed_model.disparity(views.left, views.right, config)
     if engine == "fixed":
         return model, None

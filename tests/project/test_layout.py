@@ -26,7 +26,7 @@ PERMITTED: dict[str, set[str]] = {
     "view": {"metric", "rig", "golden", "spec", "files"},
     "board": {"golden", "spec"},
     "run": {"board", "golden", "sim", "spec", *BASE},
-    "studies": {"inspect", "run", "sim", "flow", "golden", "hdl", "spec", *BASE},
+    "studies": {"export", "inspect", "run", "sim", "flow", "golden", "hdl", "spec", *BASE},
     "caches": set(),
     "ending": {"caches", "spec", "softdepth"},
     "files": {"spec"},

@@ -17,7 +17,8 @@ from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.scenes import Scene
 
 LAST = "evaluate.json"
-FILES = ("accuracy.md", "accuracy.html", "confidence.png")
+PLOT = "confidence.png"
+FILES = ("accuracy.md", "accuracy.html", PLOT)
 """Everything that is written beside ``evaluate.json``."""
 EXIT_MISMATCH = 1
 RIVALS_SHOWN = ("hh",)
@@ -71,18 +72,21 @@ def check_document(path: Path | None) -> None:
 
 
 def write(folder: Path, outcome: Outcome, document: Path | None = None) -> None:
-    """Write every file into `folder`, and renew the generated part of `document`."""
+    """Write every file into `folder`, and renew the generated part of `document` and the plot in its images."""
     found = outcome.evaluation
     text = pages.markdown(found)
     with result_folder(folder, stale=FILES, last=LAST) as place:
         (place / "accuracy.md").write_text(f"# Accuracy\n\n{text}\n")
         (place / "accuracy.html").write_text(pages.page(found, outcome.pictures))
         if any(scene.sparsification for scene in found.scenes):
-            (place / "confidence.png").write_bytes(plots.confidence(found))
+            (place / PLOT).write_bytes(plots.confidence(found))
         (place / LAST).write_text(found.model_dump_json(indent=1) + "\n")
     if document is not None:
         renewed = markers.renew(_read(document), str(document), pages.PART, text)
         write_atomically(document, renewed.encode())
+        picture = document.parent / "images" / PLOT
+        if picture.parent.is_dir() and (folder / PLOT).exists():
+            write_atomically(picture, (folder / PLOT).read_bytes())
 
 
 def show(outcome: Outcome) -> None:

@@ -72,7 +72,7 @@ def check_document(path: Path | None) -> None:
 
 
 def write(folder: Path, outcome: Outcome, document: Path | None = None) -> None:
-    """Write every file into `folder`, and renew the generated part of `document` and the plot in its images."""
+    """Write every file into `folder`, and renew the generated part and the plot of `document`."""
     found = outcome.evaluation
     text = pages.markdown(found)
     with result_folder(folder, stale=FILES, last=LAST) as place:

@@ -21,6 +21,7 @@ from softdepth.cli import (
     listing,
     options,
     paper,
+    rectify,
     ros,
     run,
     utilization,
@@ -39,6 +40,7 @@ app.command("run")(run.run)
 app.command("view")(view.view)
 app.command("ros")(ros.ros)
 app.command("inspect")(inspect.inspect)
+app.command("rectify")(rectify.rectify)
 app.command("board")(board.board)
 app.command("compare")(compare.compare)
 app.command("evaluate")(evaluate.evaluate)

@@ -19,7 +19,7 @@ PERMITTED: dict[str, set[str]] = {
     "sim": {"golden", "hdl", "spec", "files"},
     "flow": {"hdl", "spec", *BASE},
     "export": {"hdl", "spec"},
-    "rig": {"spec"},
+    "rig": {"golden", "spec", "files"},
     "metric": {"rig", "golden", "spec", "files"},
     "ros": {"metric", "rig", "spec"},
     "inspect": {"golden", "spec"},

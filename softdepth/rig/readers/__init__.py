@@ -1,0 +1,1 @@
+"""Calibrations as the field's tools write them, one reader each."""

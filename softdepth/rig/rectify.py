@@ -56,7 +56,14 @@ class Rectifier:
     def apply(self, left: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rectify two raw images, H x W or H x W x C, uint8 or uint16; what no camera saw is 0."""
         views = [
-            cv2.remap(view, field, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=0)
+            cv2.remap(
+                view,
+                field[..., 0],
+                field[..., 1],
+                cv2.INTER_LINEAR,
+                borderMode=cv2.BORDER_CONSTANT,
+                borderValue=0,
+            )
             for view, field in zip((left, right), self.maps, strict=True)
         ]
         return views[0], views[1]

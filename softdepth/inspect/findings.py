@@ -6,6 +6,7 @@ from typing import Literal
 
 from softdepth.inspect.measurements import Measurements
 from softdepth.inspect.span import Span
+from softdepth.spec.config import Config
 
 Code = Literal[
     "same",
@@ -73,19 +74,23 @@ class Range:
     disparities: int
 
 
-def needed(span: Span, lanes: int) -> Range:
-    """The range that holds a pair's disparities, for a core of so many lanes; it may exceed `MOST`."""
-    low, high = span.low, span.high
-    first = math.floor(low) - 1 if low < -1 and span.below(-1) >= NEGATIVE else 0
-    count = max(1, math.ceil(high) + MARGIN + 1 - first)
+def needed(span: Span, lanes: int, first: int = 0) -> Range:
+    """The range that holds a pair's disparities, for a core of so many lanes; it may exceed `MOST`.
+
+    It begins at `first`, unless there are disparities below.
+    """
+    if span.below(first - 1) >= NEGATIVE:
+        lowest = math.floor(span.low) - 1
+        first = lowest if span.low < -1 else max(lowest, 0)
+    count = max(1, math.ceil(span.high) + MARGIN + 1 - first)
     step = lanes * math.ceil(STEP / lanes)
     return Range(first, math.ceil(count / step) * step)
 
 
-def find(measured: Measurements, disparities: int, lanes: int) -> list[Finding]:
-    """What is wrong with a pair for a core with candidates ``0 .. disparities - 1``, gravest first.
+def find(measured: Measurements, config: Config) -> list[Finding]:
+    """What is wrong with a pair for a core with the candidates of `config`, gravest first.
 
-    `lanes` decides which other numbers of candidates are named as remedies.
+    Its lanes decide which other numbers of candidates are named as remedies.
     """
     if measured.same:
         return [Finding("same", {})]
@@ -100,9 +105,9 @@ def find(measured: Measurements, disparities: int, lanes: int) -> list[Finding]:
     span, rows = measured.span, _rows(measured)
     ranges: list[Finding] = []
     if span is not None and exchanged(span):
-        ranges = [_exchange(span, disparities, lanes)]
+        ranges = [_exchange(span, config)]
     elif span is not None and not any(one.code == "unrectified" for one in rows):
-        ranges = _range(span, disparities, lanes)  # what rectifying moves is not judged before
+        ranges = _range(span, config)  # what rectifying moves is not judged before
     spoilt = [one for one in ranges if one.code != "needless"]
     thrifty = [one for one in ranges if one.code == "needless"]
     return [*found, *spoilt, *rows, *_light(measured), *thrifty]
@@ -113,10 +118,10 @@ def exchanged(span: Span) -> bool:
     return span.above(1) < POSITIVE and span.below(-1) >= POSITIVE
 
 
-def _exchange(span: Span, disparities: int, lanes: int) -> Finding:
-    would_do = needed(span.mirrored(), lanes).disparities
+def _exchange(span: Span, config: Config) -> Finding:
+    would_do = needed(span.mirrored(), config.lanes, config.min_disparity).disparities
     figures = {"share": span.below(0), "low": span.low, "high": span.high}
-    return Finding("exchanged", {**figures, "given": disparities, "disparities": would_do})
+    return Finding("exchanged", {**figures, "given": config.disparities, "disparities": would_do})
 
 
 def _rows(measured: Measurements) -> list[Finding]:
@@ -148,15 +153,23 @@ def _light(measured: Measurements) -> list[Finding]:
     return found
 
 
-def _range(span: Span, disparities: int, lanes: int) -> list[Finding]:
-    would_do = needed(span, lanes)
-    figures = {"low": span.low, "high": span.high, "disparities": would_do.disparities}
-    if would_do.first < 0:
-        shift = {"shift": -would_do.first, "given": disparities}
-        return [Finding("negative", {"share": span.below(-0.5), **shift, **figures})]
-    outside = span.above(disparities - 0.5)
+def _range(span: Span, config: Config) -> list[Finding]:
+    first, last = config.min_disparity, config.max_disparity
+    would_do = needed(span, config.lanes, first)
+    figures: dict[str, float] = {
+        "low": span.low,
+        "high": span.high,
+        "first": first,
+        "last": last,
+        "given": config.disparities,
+        "wanted": would_do.first,
+        "disparities": would_do.disparities,
+    }
+    if would_do.first < first:
+        return [Finding("negative", {"share": span.below(first - 0.5), **figures})]
+    outside = span.above(last + 0.5)
     if outside >= OUTSIDE:
-        return [Finding("short", {"share": outside, "given": disparities, **figures})]
-    if would_do.disparities * NEEDLESS <= disparities:
-        return [Finding("needless", {"given": disparities, **figures})]
+        return [Finding("short", {"share": outside, **figures})]
+    if would_do.disparities * NEEDLESS <= config.disparities:
+        return [Finding("needless", figures)]
     return []

@@ -13,7 +13,7 @@ from softdepth.spec.config import Config
 
 @dataclass(frozen=True)
 class Inspection:
-    """What was found about a pair, for a core with candidates ``0 .. disparities - 1``.
+    """What was found about a pair, for a core with certain candidates.
 
     Members
     -------
@@ -60,5 +60,5 @@ def inspect(left: np.ndarray, right: np.ndarray, config: Config) -> Inspection:
     would_do = None
     if span is not None:
         ordered = span.mirrored() if findings.exchanged(span) else span
-        would_do = findings.needed(ordered, config.lanes)
-    return Inspection(measured, findings.find(measured, config.disparities, config.lanes), would_do)
+        would_do = findings.needed(ordered, config.lanes, config.min_disparity)
+    return Inspection(measured, findings.find(measured, config), would_do)

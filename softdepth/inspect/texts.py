@@ -54,8 +54,7 @@ def _shift(f: Figures) -> str:
 
 
 def _negative(f: Figures) -> str:
-    n = int(f["shift"])
-    return f"cut {n} columns off the right image's left side and off the left image's right side{_wider(f)}"
+    return f"use --set min_disparity={f['wanted']:.0f}{_wider(f)}"
 
 
 _TEXTS: dict[Code, tuple[Callable[[Figures], str], Callable[[Figures], str]]] = {
@@ -109,19 +108,23 @@ _TEXTS: dict[Code, tuple[Callable[[Figures], str], Callable[[Figures], str]]] = 
     ),
     "negative": (
         lambda f: (
-            f"{100 * f['share']:.0f} % of the disparities are negative ({_span(f)}), below every candidate"
+            f"{100 * f['share']:.0f} % of the disparities lie below the first candidate, {f['first']:.0f}"
+            f" ({_span(f)})"
         ),
         _negative,
     ),
     "short": (
         lambda f: (
             f"the range is too small: {100 * f['share']:.0f} % of the disparities lie beyond"
-            f" {f['given'] - 1:.0f} ({_span(f)})"
+            f" {f['last']:.0f} ({_span(f)})"
         ),
         lambda f: f"use {_option(f)}",
     ),
     "needless": (
-        lambda f: f"the range is larger than needed: disparities are {_span(f)} of 0 .. {f['given'] - 1:.0f}",
+        lambda f: (
+            f"the range is larger than needed: disparities are {_span(f)}"
+            f" of {f['first']:.0f} .. {f['last']:.0f}"
+        ),
         lambda f: f"{_option(f)} would do",
     ),
 }

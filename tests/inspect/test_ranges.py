@@ -5,8 +5,10 @@ import pytest
 
 from softdepth.golden.data.synthetic import generate
 from softdepth.inspect.findings import MOST, Finding, needed
+from softdepth.inspect.inspection import inspect
 from softdepth.inspect.span import Span
 from softdepth.inspect.texts import line
+from softdepth.spec.config import Config
 from tests.inspect.conftest import look, spoilt
 
 
@@ -38,16 +40,28 @@ def test_a_range_of_which_half_would_do_is_needless(pair):
     assert look(pair.left, pair.right, 63).findings == []
 
 
-def test_negative_disparities_are_told_with_the_columns_to_cut(pair):
+def test_negative_disparities_are_told_with_a_range_that_holds_them(pair):
     left, right = moved(pair, 9)  # -8 .. 14
-    found = look(left, right)
+    found = look(left, right, 16)
     assert spoilt(found) == ["negative"]
     assert found.range is not None
-    assert -11 <= found.range.first <= -8
-    columns = -found.range.first
-    assert f"cut {columns} columns off the right image's left side" in found.lines[0]
-    again = look(left[:, :-columns], right[:, columns:])
-    assert spoilt(again) == []
+    first = found.range.first
+    assert -11 <= first <= -8
+    assert (
+        f"use --set min_disparity={first}, and use --disparities {found.range.disparities}" in found.lines[0]
+    )
+    config = ["lanes=1", f"min_disparity={first}", f"disparities={found.range.disparities}"]
+    again = inspect(left, right, Config.preset("sad").override(config))
+    assert again.findings == []
+    late = Config.preset("sad").override(["lanes=1", "min_disparity=-3", "disparities=32"])
+    assert spoilt(inspect(left, right, late)) == ["negative"]
+
+
+def test_a_range_that_begins_too_late_names_an_earlier_one(pair):
+    config = Config.preset("sad").override(["lanes=1", "min_disparity=8", "disparities=24"])
+    found = inspect(pair.left, pair.right, config)
+    assert "lie below the first candidate, 8" in found.lines[0]
+    assert "--set min_disparity=0" in found.lines[0]
 
 
 def test_near_scenes_need_more_than_the_default():
@@ -72,7 +86,14 @@ def test_a_range_is_a_multiple_of_the_lanes(lanes, candidates):
 def test_more_than_a_core_can_have_asks_for_smaller_images():
     would_do = needed(span(0, 500), 16)
     assert would_do.disparities > MOST
-    figures = {"low": 0, "high": 500, "given": 64, "share": 0.9, "disparities": would_do.disparities}
+    figures = {
+        "low": 0,
+        "high": 500,
+        "given": 64,
+        "last": 63,
+        "share": 0.9,
+        "disparities": would_do.disparities,
+    }
     text = line(Finding("short", figures))
     assert "--disparities" not in text
     assert f"{would_do.disparities} candidates are more than {MOST}" in text

@@ -95,11 +95,10 @@ def page() -> str:
 def main(project: Path) -> None:
     """Renew the table in `project`."""
     path = project / DOCUMENT
-    try:
-        text = path.read_text()
-    except OSError as error:
-        raise InputError(f"'{path}' cannot be read: {error}", "run this in the project's folder") from error
-    write_atomically(path, markers.renew(text, str(DOCUMENT), PART, page()).encode())
+    if not path.is_file():
+        raise InputError(f"'{path}' is not there", "run this in the project's folder")
+    table = page()
+    write_atomically(path, markers.renew(path.read_text(), str(DOCUMENT), PART, table).encode())
 
 
 if __name__ == "__main__":

@@ -1,16 +1,30 @@
 """Which configurations there is gateware for."""
 
-from softdepth.hdl.costs.lane import CRITERIA
-from softdepth.spec.config import Config
+from softdepth.spec.config import Census, Config
 from softdepth.spec.errors import ConfigError
 
 
 def missing(config: Config) -> tuple[str, ...]:
     """What of a configuration has a model but no gateware, as its keys."""
+    return _missing_of_whole(config) if config.whole_frame else _missing_of_sads(config)
+
+
+def _missing_of_whole(config: Config) -> tuple[str, ...]:
+    gaps = []
+    if config.cost == "fuzzy":
+        gaps.append("cost = 'fuzzy' of criteria without a border band")
+    if sum(isinstance(criterion, Census) for criterion in config.criteria) > 1:
+        gaps.append("more than one criterion of kind 'census'")
+    if config.min_disparity:
+        gaps.append("min_disparity of criteria without a border band")
+    return tuple(gaps)
+
+
+def _missing_of_sads(config: Config) -> tuple[str, ...]:
     gaps = [
-        f"criteria.{i} of kind '{criterion.kind}'"
+        f"criteria.{i} of kind '{criterion.kind}' beside one of kind 'sad'"
         for i, criterion in enumerate(config.criteria)
-        if criterion.kind not in CRITERIA
+        if criterion.whole_frame
     ]
     gaps += [
         f"criteria.{i}.source = 'gradient'"
@@ -19,10 +33,8 @@ def missing(config: Config) -> tuple[str, ...]:
     ]
     if config.cost == "sum" and len(config.criteria) > 1:
         gaps.append(f"a sum of {len(config.criteria)} criteria")
-    if config.min_disparity and config.whole_frame:
-        gaps.append("min_disparity of criteria without a border band")
     if config.post.any:
-        gaps.append("post")
+        gaps.append("post behind criteria of kind 'sad'")
     return tuple(gaps)
 
 

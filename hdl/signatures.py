@@ -7,7 +7,7 @@ and any stall pattern leaves it intact.
 from amaranth.hdl import Shape, unsigned
 from amaranth.lib import data
 
-from softdepth.spec.config import Config, PixelFormat
+from softdepth.spec.config import CONFIDENCE_BITS, Config, PixelFormat
 
 COUNTER_BITS = 16
 
@@ -31,7 +31,8 @@ def pair_layout(pixel: PixelFormat) -> data.StructLayout:
 
 
 def result_layout(config: Config) -> data.StructLayout:
-    """Output payload: ``disparity`` in pixels, its `Validity` code, the markers of its own pixel.
+    """Output payload: ``disparity`` in units of ``2**-fraction_bits`` pixels, its `Validity` code, its
+    ``confidence`` where the core gives one, and the markers of its own pixel.
 
     ``damaged`` is set from the first result after a break in the input (a short or long line, a
     misplaced start of frame) to the frame's end.
@@ -39,7 +40,8 @@ def result_layout(config: Config) -> data.StructLayout:
     return data.StructLayout(
         {
             "disparity": Shape(config.result_bits, signed=config.signed),
-            "code": unsigned(2),
+            "code": unsigned(config.code_bits),
+            **({"confidence": unsigned(CONFIDENCE_BITS)} if config.post.confidence else {}),
             "sof": 1,
             "eol": 1,
             "eof": 1,

@@ -102,7 +102,7 @@ def run_frames(
     for number, frame in enumerate(frames):
         if frame["damaged"].any():
             raise _fault(f"frame {number} went in sound and came out marked as damaged", "frame guard")
-    return FramesResult([from_core_view(found, config) for found in to_maps(frames)], stream)
+    return FramesResult([from_core_view(found, config) for found in to_maps(frames, config)], stream)
 
 
 def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:

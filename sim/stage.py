@@ -2,11 +2,12 @@
 
 The core shows its results alone. The model tells what else would have given them: the line above, one
 criterion without the fuzzy stage, an excluded candidate. What is said is what the results are consistent
-with; stages have the names of `softdepth.hdl.core.StereoCore`'s docstring.
+with; stages have the names of the docstrings of `StereoCore` and `WholeFrameCore`.
 """
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -45,6 +46,8 @@ class _Frame:
 
     def stage(self, found: Mismatch) -> str:
         """The stage that one of its mismatches speaks of, and why."""
+        if self._config.whole_frame:
+            return self._stage_of_whole(found)
         if found.got.code != found.expected.code:
             return "sequencer (validity code)"
         if found.expected.code == Validity.BORDER:
@@ -60,6 +63,24 @@ class _Frame:
             return "argmin (both candidates cost the same)"
         costs = (f"{k + trace.first} costs {n[k]}/{s[k]}" for k in (a, b))
         return f"{self._lane}; {', '.join(costs)}"
+
+    def _stage_of_whole(self, found: Mismatch) -> str:
+        """The last stage behind the winners without whose work the result would be as it came out."""
+        if found.got.code != found.expected.code:
+            codes = {found.got.code, found.expected.code}
+            if Validity.ISLAND in codes:
+                return "island"
+            if Validity.NOTHING in codes:
+                return "fill"
+            return "costs, right winner or check"
+        if found.got.disparity == found.expected.disparity:
+            return "neighbours (confidence)"
+        maps = fixed_model.stages(*self._pair, self._config).maps
+        for (_, before), (name, after) in reversed(list(pairwise(maps.items()))):
+            values = before.disparity[found.y, found.x], after.disparity[found.y, found.x]
+            if values[0] == found.got.disparity != values[1]:
+                return f"{name} (as without it)"
+        return "costs, winners or post"
 
     @cached_property
     def _like(self) -> str | None:

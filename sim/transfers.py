@@ -19,9 +19,14 @@ Payloads = NDArray[Any]
 WORD_BITS = 64
 
 RESULT = np.dtype(
-    [("disparity", "u2"), ("code", "u1"), ("sof", "?"), ("eol", "?"), ("eof", "?"), ("damaged", "?")]
+    [
+        ("disparity", "u2"),
+        ("code", "u1"),
+        ("confidence", "u1"),
+        *((name, "?") for name in ("sof", "eol", "eof", "damaged")),
+    ]
 )
-"""A result as NumPy sees it; the fields of `softdepth.hdl.signatures.result_layout`."""
+"""A result as NumPy sees it; the fields of `softdepth.hdl.signatures.result_layout`, 0 where it has none."""
 
 
 def pack_frame(
@@ -52,7 +57,7 @@ def unpack_results(payloads: Payloads, config: Config) -> NDArray[np.void]:
     """Packed results as an array of `RESULT` records, one for each payload."""
     layout = result_layout(config)
     results = np.zeros(payloads.shape, RESULT)
-    for name in RESULT.names or ():
+    for name in layout.members:
         results[name] = unpack_field(layout, name, payloads)
     return _signed(results, config.result_bits) if config.signed else results
 
@@ -100,9 +105,18 @@ def split_frames(results: NDArray[np.void]) -> list[NDArray[np.void]]:
     return frames
 
 
-def to_maps(frames: Sequence[NDArray[np.void]]) -> list[DisparityMap]:
+def to_maps(frames: Sequence[NDArray[np.void]], config: Config) -> list[DisparityMap]:
     """Frames as `split_frames` gives them, as maps in the core's view."""
-    return [DisparityMap(frame["disparity"].copy(), frame["code"].copy()) for frame in frames]
+    post = config.post
+    return [
+        DisparityMap(
+            frame["disparity"].copy(),
+            frame["code"].copy(),
+            post.fraction_bits,
+            frame["confidence"].copy() if post.confidence else None,
+        )
+        for frame in frames
+    ]
 
 
 def unpack_field(layout: StructLayout, name: str, words: Payloads) -> Payloads:

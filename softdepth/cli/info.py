@@ -12,7 +12,7 @@ from rich.table import Table
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.cli.bundle import bundled
-from softdepth.spec.config import MULTIPLIER_BITS, Config
+from softdepth.spec.config import MULTIPLIER_BITS, Census, Config, Gradient
 from softdepth.spec.errors import InputError
 
 
@@ -40,6 +40,8 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     from softdepth.hdl.core import StereoCore
     from softdepth.hdl.signatures import pair_layout, result_layout
 
+    if config.whole_frame:
+        return _facts_of_whole(config, clock, width, height)
     with _asked():
         core = StereoCore(config)
         latency, full_rate_latency = core.latency, core.full_rate_latency
@@ -57,6 +59,29 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "latency at full rate": f"{full_rate_latency} clocks where pixels are always on offer",
         "line buffer": f"{line_bits} bits, {config.column_rows - 1} lines of {config.max_width} pixel pairs",
         "row memories": f"{row_bits} bits, {config.stored_rows} rows of {config.places} costs in each lane",
+        "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
+        "clocks per frame": f"{cycles} at {width}x{height}",
+        "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
+    }
+
+
+def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
+    """The same of a core without a border band, whose stages hold their input back beyond a frame's edges."""
+    from softdepth.hdl.costs.comparison import plan
+    from softdepth.hdl.signatures import pair_layout, result_layout
+
+    reach = plan(config)
+    drain = config.disparities - 1 if config.post.check else 0
+    cycles = ((width + reach.right) * (height + reach.below) + drain) * config.steps
+    below = max(c.below for c in config.criteria if isinstance(c, Census | Gradient)) + config.post.below
+    return {
+        "candidates": f"{config.disparities}, {config.lanes} per clock",
+        "clocks per pixel": str(config.steps),
+        "smallest frame": f"{config.min_width} x {config.min_height} pixels",
+        "disparity": f"{config.result_bits} bits, {config.post.fraction_bits} of them below a pixel",
+        "input payload": f"{pair_layout(config.pixel).size} bits",
+        "output payload": f"{result_layout(config).size} bits",
+        "latency": f"{below} rows below a result's own are seen first",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",

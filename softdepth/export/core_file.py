@@ -28,6 +28,11 @@ def check_export(config: Config, name: str = TOP) -> None:
             f"--name '{name}' is no name for a module",
             "use letters, digits and single underscores, beginning with a letter, and no word of Verilog",
         )
+    if config.whole_frame:
+        raise ConfigError(
+            f"'{config.name}' has no border band, and the text for such a core's user is not written yet",
+            "export a configuration whose criteria are of kind 'sad', or take softdepth.hdl.verilog.to_verilog",
+        )
     if config.reference == "right":
         raise ConfigError(
             "reference is 'right', but the core judges its left input's pixels: it cannot mirror lines",

@@ -116,3 +116,58 @@ def random_config(seed: int) -> Config:
     most = 2 * config.reach_rows
     stored = pick([0, int(rng.integers(most + 1)), most])
     return config.override([f"stored_rows={stored}"])
+
+
+def random_whole_config(seed: int) -> Config:
+    """A configuration without a border band, drawn at random from everything that has gateware."""
+    rng = np.random.default_rng(seed)
+
+    def pick(options: list) -> Any:
+        return options[int(rng.integers(len(options)))]
+
+    disparities = int(pick([2, 3, 5, 6, 8, 12]))
+    census = {
+        "kind": "census",
+        "rows": pick([1, 3, 5, 9]),
+        "taps": pick([1, 3, 5, 7]),
+        "spacing": pick([1, 2, 4]),
+        "like": pick([20, 32, 100, 256]),
+        "neutral": int(rng.integers(25)),
+    }
+    gradients = []
+    for _ in range(2):
+        truncation = int(rng.integers(1, 70))
+        gradients.append(
+            {
+                "kind": "gradient",
+                "rows": pick([1, 3, 5, 9]),
+                "columns": pick([1, 3, 5, 9]),
+                "cap": pick([7, 31, 60]),
+                "truncation": truncation,
+                "neutral": int(rng.integers(truncation + 1)),
+            }
+        )
+    check = bool(rng.random() < 0.8)
+    return Config.from_dict(
+        {
+            "name": f"random-whole-{seed}",
+            "cost": "sum",
+            "disparities": disparities,
+            "lanes": pick([n for n in range(1, 5) if disparities % n == 0]),
+            "max_width": int(rng.integers(64, 120)),
+            "max_height": 100,
+            "reference": pick(["left", "right"]),
+            "criteria": pick([[census], [gradients[0]], [census, gradients[0]], [census, *gradients]]),
+            "post": {
+                "check": check,
+                "tolerance": int(rng.integers(3)) if check else 0,
+                "island": pick([0, 5, 8]),
+                "fraction_bits": pick([0, 4]),
+                "fill": pick([False, True]),
+                "median": pick([0, 5]),
+                "masked_median": pick([0, 2, 9]),
+                "like": pick([16, 32, 40]),
+                "confidence": pick([False, True]),
+            },
+        }
+    )

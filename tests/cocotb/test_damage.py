@@ -89,7 +89,7 @@ def assert_exact(frame: np.ndarray, index: int) -> None:
     """``frame`` is the sound result of the good pair `index`."""
     assert not frame["damaged"].any()
     expected = fixed_model.disparity(*GOOD[index], CONFIG)
-    assert not list(expected.differences(to_maps([frame])[0]))
+    assert not list(expected.differences(to_maps([frame], CONFIG)[0]))
 
 
 @pytest.mark.parametrize("stalls", [Stalls(), Stalls.random(0.5, seed=8)], ids=["streaming", "stalls"])

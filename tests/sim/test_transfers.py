@@ -60,7 +60,7 @@ def raster(height: int, width: int) -> np.ndarray:
 def test_splits_frames_of_different_sizes() -> None:
     frames = split_frames(np.concatenate([raster(3, 4), raster(2, 5), raster(1, 1)]))
     assert [frame.shape for frame in frames] == [(3, 4), (2, 5), (1, 1)]
-    maps = to_maps(frames)
+    maps = to_maps(frames, Config.preset("sad"))
     assert maps[1].disparity.tolist() == [[0, 1, 2, 3, 4], [5, 6, 7, 8, 9]]
     assert maps[1].code.shape == (2, 5)
 

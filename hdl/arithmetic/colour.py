@@ -1,0 +1,23 @@
+"""Whether two colours are alike."""
+
+from amaranth.hdl import Cat, Value
+
+
+def alike(a: Value, b: Value, channels: int, like: int) -> Value:
+    """Whether no channel of two colours differs by ``like`` or more, without a register.
+
+    Where ``like`` is a power of two, the difference's upper bits tell, all alike, but for ``-like`` itself:
+    half the logic of two comparisons.
+    """
+    a, b = Value.cast(a), Value.cast(b)
+    bits = len(a) // channels
+    low = like.bit_length() - 1
+    near: list[Value] = []
+    for start in range(0, len(a), bits):
+        difference = a[start : start + bits] - b[start : start + bits]
+        if like != 1 << low:
+            near.append((difference < like) & (difference > -like))
+        elif low < bits:
+            upper, lower = difference[low:], difference[:low]
+            near.append(~upper.any() | (upper.all() & lower.any()))
+    return Cat(*near).all() if near else Cat(1).all()

@@ -1,0 +1,277 @@
+"""Descriptors in, the costs of all candidates out: the room of criteria without a border band."""
+
+from amaranth.hdl import Module, Signal, Value, unsigned
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.costs.comparison import LIKE_BITS, plan
+from softdepth.hdl.costs.criteria.running_sums import RunningSums
+from softdepth.hdl.costs.criteria.support import SupportWeights
+from softdepth.hdl.costs.whole_lane import (
+    LaneDifferences,
+    LaneSums,
+    columns_layout,
+    pixels_layout,
+    rows_layout,
+)
+from softdepth.hdl.front.exclusion import Exclusion
+from softdepth.hdl.front.right_columns import RightColumns
+from softdepth.hdl.front.row_delays import RowDelays
+from softdepth.hdl.front.slots import Slots
+from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.window import MARKERS
+from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.spec.config import Config
+
+GROUP = 16
+"""Lanes whose running sums lie in one memory."""
+
+
+def tags_layout(colour_bits: int) -> data.StructLayout:
+    """Of the pixel that a slot judges: whether there is one, with all its candidates, and its colour."""
+    return data.StructLayout(
+        {"emits": 1, "full": 1, "colour": unsigned(colour_bits), **dict.fromkeys(MARKERS, 1)}
+    )
+
+
+class WholeCosts(wiring.Component):
+    """Judges the candidates of every pixel, ``lanes`` a clock, by criteria that have no border band.
+
+    ::
+
+        i > slots > rows above > right columns > differences > running sums > supports, boxes > costs
+
+    A slot of ``steps`` clocks for each pixel, and more beyond the ends of lines and frames (`Slots`). What
+    lies outside the frame counts 0, and a candidate without a partner a constant.
+
+    Members
+    -------
+    i : the raster of `Descriptors`.
+    credit, begins : a slot may begin, and one does.
+    valid, first, last, step : a step's costs are there, and where it stands in its slot.
+    costs, excluded : of each lane's candidate.
+    tags : `tags_layout`, through all steps of the slot.
+    """
+
+    def __init__(self, config: Config, descriptors: data.StructLayout, channels: int, *, drain: int) -> None:
+        self._config, self._descriptors, self._channels = config, descriptors, channels
+        self._plan = plan(config)
+        self._sums = [LaneSums(self._plan, config.steps) for _ in range(config.lanes)]
+        self.maximum = self._sums[0].maximum
+        self._drain = drain
+        self._colour_bits = descriptors["colour"].width
+        cost = unsigned(cost_bits(self.maximum))
+        super().__init__(
+            {
+                "i": In(stream.Signature(descriptors)),
+                "credit": In(1),
+                "begins": Out(1),
+                "valid": Out(1),
+                "first": Out(1),
+                "last": Out(1),
+                "step": Out(range(config.steps)),
+                "costs": Out(data.ArrayLayout(cost, config.lanes)),
+                "excluded": Out(config.lanes),
+                "tags": Out(tags_layout(self._colour_bits)),
+            }
+        )
+
+    @property
+    def latency(self) -> int:
+        """Clocks from a slot's beginning to its first costs."""
+        return Slots.latency + RowDelays.latency + self._sum_after_columns + self._sums[0].latency
+
+    @property
+    def _sum_after_columns(self) -> int:
+        return LaneDifferences.latency - RunningSums.ahead + RunningSums.latency
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config, plan_ = self._config, self._plan
+        members = {k: v for k, v in self._descriptors.members.items() if k not in MARKERS}
+        payload = data.StructLayout(members)
+        m.submodules.slots = slots = Slots(
+            payload,
+            config.steps,
+            config.max_width,
+            right=plan_.right,
+            below=plan_.below,
+            history=plan_.history,
+            drain=self._drain,
+        )
+        m.d.comb += [
+            slots.i.valid.eq(self.i.valid),
+            self.i.ready.eq(slots.i.ready),
+            slots.i.payload.as_value().eq(self.i.payload.as_value()),
+            slots.credit.eq(self.credit),
+            self.begins.eq(slots.begins),
+        ]
+        slot = slots.slot
+
+        # Clocks after the one in which a step leaves the slots.
+        column_time = RowDelays.latency
+        place_time = column_time + LaneDifferences.latency - RunningSums.ahead
+        sum_time = column_time + self._sum_after_columns
+        cost_time = sum_time + self._sums[0].latency
+        valid = travelling(m, slots.valid, cost_time, "valid")
+        first = travelling(m, slots.first, cost_time, "first")
+        last = travelling(m, slots.last, cost_time, "last")
+
+        def at(value: Value, clock: int, name: str) -> Value:
+            return delayed(m, value, clock, name)
+
+        # Rows above.
+        pixel, lags = self._fields()
+        m.submodules.rows = rows = RowDelays(
+            {name: len(Value.cast(self._field(slot.payload, name))) for name in pixel}, lags, config.max_width
+        )
+        m.d.comb += [
+            rows.enters.eq(slots.first),
+            rows.stored.eq(slot.inside),
+            rows.x.eq(slot.x),
+            *(rows.pixel[name].eq(Value.cast(self._field(slot.payload, name))) for name in pixel),
+        ]
+        row_layout = rows_layout(plan_)
+        left, right = Signal(row_layout), Signal(row_layout)
+        for view, columns in (("left", left), ("right", right)):
+            for k, c in enumerate(plan_.comparisons):
+                found, name = lags[f"{view}.{c.field}"], f"{view}.{c.field}"
+                for row, lag in enumerate((c.new, c.old)):
+                    m.d.comb += Value.cast(columns[str(k)][row]).eq(rows.o[name][found.index(lag)])
+        m.submodules.right = ring = RightColumns(config, row_layout)
+        m.d.comb += [
+            ring.valid.eq(valid[column_time]),
+            ring.first.eq(first[column_time]),
+            ring.column.eq(right),
+        ]
+
+        # Which candidates have no partner, and later which are out.
+        m.submodules.absent = absent = Exclusion(config)
+        before = column_time + 1 - Exclusion.latency
+        m.d.comb += [
+            absent.valid.eq(valid[before]),
+            absent.first.eq(first[before]),
+            absent.starts.eq(at(slot.first_column, before, "first_column")),
+        ]
+        m.submodules.exclusion = exclusion = Exclusion(config)
+        before = cost_time - Exclusion.latency
+        m.d.comb += [
+            exclusion.valid.eq(valid[before]),
+            exclusion.first.eq(first[before]),
+            exclusion.starts.eq(at(slot.starts, before, "starts")),
+        ]
+
+        place = Signal(range(config.places), reset_less=True)
+        with m.If(valid[place_time - 1]):
+            m.d.sync += place.eq(place + 1)
+            with m.If(first[place_time - 1] & at(slot.first_column, place_time - 1, "line")):
+                m.d.sync += place.eq(0)
+        news = at(Value.cast(slot.rows), column_time + 1, "rows")
+        top = at(slot.top, place_time, "top")
+        outside = at(~slot.inside, place_time, "outside")
+
+        weights, reciprocal = self._weights(m, rows, first[column_time], at(slot.inside, column_time, "in"))
+        centre = self._centre(m, rows, first[column_time])
+        differences = []
+        for k in range(config.lanes):
+            m.submodules[f"differences_{k}"] = lane = LaneDifferences(plan_)
+            differences.append(lane)
+            m.d.comb += [
+                lane.left.eq(left),
+                lane.right.eq(ring.columns[k]),
+                lane.absent.eq(absent.lanes[k]),
+                *(lane.new_inside[j].eq(news[c.new]) for j, c in enumerate(plan_.comparisons)),
+                *(lane.old_inside[j].eq(news[c.old]) for j, c in enumerate(plan_.comparisons)),
+            ]
+        columns_of, pixels_of = columns_layout(plan_), pixels_layout(plan_)
+        emits = at(slot.emits, cost_time, "emits")
+        for base in range(0, config.lanes, GROUP):
+            lanes = range(base, min(base + GROUP, config.lanes))
+            comparisons = [c for _ in lanes for c in plan_.comparisons]
+            m.submodules[f"running_{base}"] = running = RunningSums(
+                [c.column_maximum for c in comparisons],
+                [c.pixel_maximum for c in comparisons],
+                config.places,
+            )
+            m.d.comb += [
+                running.valid.eq(valid[place_time]),
+                running.place.eq(place),
+                running.begins.eq(top),
+                running.outside.eq(outside),
+            ]
+            for n, k in enumerate(lanes):
+                low, high = n * columns_of.size, (n + 1) * columns_of.size
+                new = slice(n * pixels_of.size, (n + 1) * pixels_of.size)
+                m.submodules[f"sums_{k}"] = sums = self._sums[k]
+                m.d.comb += [
+                    running.new.as_value()[new].eq(differences[k].new.as_value()),
+                    running.old.as_value()[new].eq(differences[k].old.as_value()),
+                    sums.valid.eq(valid[sum_time]),
+                    sums.columns.as_value().eq(running.o.as_value()[low:high]),
+                    sums.weights.eq(weights),
+                    sums.reciprocal.eq(reciprocal),
+                    self.costs[k].eq(sums.o),
+                    self.excluded[k].eq(exclusion.lanes[k] | ~emits),
+                ]
+
+        tags = Signal(self.tags.shape())
+        m.d.comb += [
+            tags.emits.eq(slot.emits),
+            tags.full.eq(slot.x >= plan_.right + config.disparities - 1),
+            *(tags[name].eq(slot[name]) for name in MARKERS),
+        ]
+        m.d.comb += [
+            self.valid.eq(valid[cost_time]),
+            self.first.eq(first[cost_time]),
+            self.last.eq(last[cost_time]),
+            self.step.eq(at(slots.step, cost_time, "step")),
+            Value.cast(self.tags).eq(at(Value.cast(tags), cost_time, "tags")),
+            self.tags.colour.eq(at(centre, cost_time - column_time - 1, "centre")),
+        ]
+        return m
+
+    def _fields(self) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+        """The descriptors that are kept, and how many rows above each is wanted."""
+        lags: dict[str, tuple[int, ...]] = {}
+        for view in ("left", "right"):
+            for c in self._plan.comparisons:
+                name = f"{view}.{c.field}"
+                lags[name] = tuple(sorted({*lags.get(name, ()), c.new, c.old}))
+        lags["colour"] = (self._plan.below,)
+        return list(lags), lags
+
+    def _field(self, payload: data.View, name: str) -> Value:
+        view, _, field = name.partition(".")
+        return Value.cast(payload[view][field] if field else payload[view])
+
+    def _weights(self, m: Module, rows: RowDelays, enters: Value, inside: Value) -> tuple[Value, Value]:
+        """The support of the pixel that is judged, when the newest of its column sums is there."""
+        for c in self._plan.comparisons:
+            if not c.taps:
+                continue
+            like = c.criterion.like << (self._config.pixel.bits - LIKE_BITS)  # type: ignore[union-attr]
+            m.submodules.weights = weights = SupportWeights(
+                self._colour_bits, self._channels, c.taps, c.spacing, like
+            )
+            m.submodules.wait = wait = Delay(self._colour_bits + 1, self._plan.right - c.reach)
+            m.d.comb += [
+                wait.en.eq(enters),
+                wait.i.eq(Value.cast(rows.o["colour"]) | (inside << self._colour_bits)),
+                weights.enters.eq(enters),
+                weights.colour.eq(wait.o[: self._colour_bits]),
+                weights.inside.eq(wait.o[self._colour_bits]),
+            ]
+            return weights.weights, weights.reciprocal
+        sums = self._sums[0]
+        return Signal.like(sums.weights), Signal.like(sums.reciprocal)
+
+    def _centre(self, m: Module, rows: RowDelays, enters: Value) -> Value:
+        """The colour of the pixel that is judged, a clock after its slot's columns, through all steps."""
+        m.submodules.colours = colours = Delay(self._colour_bits, self._plan.right)
+        centre = Signal(self._colour_bits, name="centre", reset_less=True)
+        m.d.comb += [colours.en.eq(enters), colours.i.eq(Value.cast(rows.o["colour"]))]
+        with m.If(enters):
+            m.d.sync += centre.eq(colours.o)
+        return centre

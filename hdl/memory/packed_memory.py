@@ -1,0 +1,109 @@
+"""A memory in as few block RAMs as its depth allows."""
+
+from functools import cache
+
+from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
+from amaranth.lib import wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.memory.sliced_memory import SLICES
+
+SEGMENTS = {depth: width for depth, width in SLICES.items() if depth <= 2048}
+"""Depths of which a memory is composed, and how wide a block of each is."""
+
+
+class PackedMemory(wiring.Component):
+    """One write and one read port, as `SlicedMemory`, for depths that are far from a power of two.
+
+    The depth is made of segments, each as deep as blocks of one width are: 2560 words of 9 bits are 2048
+    of 9 and 512 that share a block with three others. One multiplexer per bit chooses between segments,
+    behind the blocks. A word must not be read in the clock in which it is written.
+
+    Parameters
+    ----------
+    shape : of a word.
+    depth : words.
+
+    Members
+    -------
+    read, read_at, data : ``data`` is the word at ``read_at``, one clock after ``read`` was high, and held.
+    write, write_at, written : a word to be stored.
+    """
+
+    def __init__(self, shape: ShapeLike, depth: int) -> None:
+        self._depth = depth
+        super().__init__(
+            {
+                "read": In(1),
+                "read_at": In(range(depth)),
+                "data": Out(shape),
+                "write": In(1),
+                "write_at": In(range(depth)),
+                "written": In(shape),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        word, data = Value.cast(self.written), Value.cast(self.data)
+        segments = segments_of(len(word), self._depth)
+        found: Value | None = None
+        base = self._depth if not segments else 0
+        parts: list[tuple[int, Value]] = []
+        for deep in segments:
+            used = min(deep, self._depth - base)
+            is_read = self._within(self.read_at, base, used)
+            is_written = self._within(self.write_at, base, used)
+            bits = []
+            for low in range(0, len(word), SEGMENTS[deep]):
+                part = word[low : low + SEGMENTS[deep]]
+                m.submodules[f"at_{base}_{low}"] = memory = Memory(shape=len(part), depth=used, init=[])
+                read, write = memory.read_port(), memory.write_port()
+                m.d.comb += [
+                    read.en.eq(self.read),
+                    read.addr.eq(self.read_at - base if base % deep else self.read_at[: len(read.addr)]),
+                    write.en.eq(self.write & is_written),
+                    write.addr.eq(self.write_at - base if base % deep else self.write_at[: len(write.addr)]),
+                    write.data.eq(part),
+                ]
+                bits.append(read.data)
+            chosen = Signal(name=f"chosen_{base}", reset_less=True)
+            with m.If(self.read):
+                m.d.sync += chosen.eq(is_read)
+            parts.append((base, Cat(*bits)))
+            found = parts[-1][1] if found is None else Mux(chosen, parts[-1][1], found)
+            base += used
+        if found is not None:
+            m.d.comb += data.eq(found)
+        return m
+
+    def _within(self, address: Value, base: int, used: int) -> Value:
+        """Whether an address lies in a segment; those above the last do not occur."""
+        return (address >= base) & (address < base + used)
+
+
+def blocks(bits: int, depth: int) -> int:
+    """Block RAMs of 18 kbit that a `PackedMemory` takes."""
+    return sum(-(-bits // SEGMENTS[deep]) for deep in segments_of(bits, depth))
+
+
+@cache
+def segments_of(bits: int, depth: int) -> tuple[int, ...]:
+    """The depths of the segments that take fewest blocks, deepest first; of equals, the fewest segments."""
+    deepest = max(SEGMENTS)
+    whole, left = divmod(depth, deepest)
+    choices: list[tuple[int, ...]] = []
+
+    def extend(chosen: tuple[int, ...], left: int) -> None:
+        if left <= 0:
+            choices.append(chosen)
+            return
+        for deep in sorted(SEGMENTS, reverse=True):
+            if not chosen or deep < chosen[-1]:
+                extend((*chosen, deep), left - deep)
+
+    extend((), left)
+    fits = [c for c in choices if sum(c) >= left]
+    best = min(fits, key=lambda c: (sum(-(-bits // SEGMENTS[d]) for d in c), len(c)))
+    return (*(deepest,) * whole, *best)

@@ -1,0 +1,247 @@
+"""Windows of a raster: each pixel with its neighbours, up to the frame's last."""
+
+from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.memory.packed_memory import PackedMemory
+
+MARKERS = ("sof", "eol", "eof", "damaged")
+"""A raster's markers: first pixel, last of a line, last of all, and whether the frame was mended so far."""
+
+
+def raster_layout(element: ShapeLike, companion: ShapeLike = 0) -> data.StructLayout:
+    """What a `Window` takes: an element, what goes along with it, and the markers of a sound frame."""
+    return data.StructLayout({"element": element, "companion": companion, **dict.fromkeys(MARKERS, 1)})
+
+
+class Window(wiring.Component):
+    """Gives each pixel of a frame the window around it, ``2 rows + 1`` by ``2 columns + 1``.
+
+    What lies outside the frame repeats its edge; `row_inside` and `column_inside` tell those who would
+    rather leave it out. No multiplexer stands in the window: a line's first and last columns enter
+    ``columns`` times more than once, a frame's first row enters into all rows of its column, and below
+    its last the column's newest pixel enters again. So a line takes ``2 columns`` clocks more than it has
+    pixels, and a frame ``rows`` lines more, in which the input is held back; nothing waits for the frame
+    that follows.
+
+    Parameters
+    ----------
+    element, companion : what is wanted with its neighbours, and what is wanted of the centre alone.
+    rows, columns : reach of the window in all four directions, alike above and below, left and right.
+    max_width : pixels of the longest line; the shortest has 4.
+
+    Members
+    -------
+    i : a raster.
+    credit : a window may be begun in this clock.
+    promised : one is: it leaves `latency` clocks later.
+    valid : a window is there, which cannot be held back.
+    window : its elements, rows from above, columns from the left.
+    row_inside, column_inside : which rows and columns of it lie inside the frame.
+    companion, sof, eol, eof : of the window's centre.
+    damaged : the frame was mended somewhere up to the window's last pixel.
+    """
+
+    latency = 4
+
+    def __init__(
+        self, element: ShapeLike, companion: ShapeLike, rows: int, columns: int, max_width: int
+    ) -> None:
+        self._rows, self._columns, self._max_width = rows, columns, max_width
+        self._element, self._companion = element, companion
+        self._height, self._across = 2 * rows + 1, 2 * columns + 1
+        super().__init__(
+            {
+                "i": In(stream.Signature(raster_layout(element, companion))),
+                "credit": In(1),
+                "promised": Out(1),
+                "valid": Out(1),
+                "window": Out(data.ArrayLayout(data.ArrayLayout(element, self._across), self._height)),
+                "row_inside": Out(self._height),
+                "column_inside": Out(self._across),
+                "companion": Out(companion),
+                **{name: Out(1) for name in MARKERS},
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        rows, columns, height, across = self._rows, self._columns, self._height, self._across
+        item = self.i.payload
+
+        # A slot is a clock in which a column enters: a new one, or the one before again.
+        at_line_start = Signal(init=1)
+        x = Signal(range(self._max_width))
+        last_x = Signal.like(x)
+        below = Signal(range(rows + 1))  # rows below the frame that are still to come, this one included
+        repeats = Signal(range(columns + 1))
+        after_last = Signal()  # the repeats are of the line's last column
+        entered = Signal(range(2 * columns + 1))  # columns of the line so far, up to a whole window
+        row_age = Signal(range(rows + 1))  # rows of the frame so far, up to the first that has a result
+        frame_rows = Signal(height)  # which rows of the column lie inside the frame
+        in_first_row = Signal()
+        fresh = Signal()  # no result of the frame has left
+        ended = Signal()  # the frame's last pixel was taken
+        damaged = Signal()
+
+        flushing = Signal()
+        repeat = Signal()
+        new = Signal()
+        slot = Signal()
+        m.d.comb += [
+            repeat.eq((repeats != 0) & self.credit),
+            flushing.eq(below != 0),
+            self.i.ready.eq((repeats == 0) & ~flushing & self.credit),
+            new.eq((repeats == 0) & self.credit & (flushing | self.i.valid)),
+            slot.eq(repeat | new),
+        ]
+        first = Signal()
+        last = Signal()
+        starts = Signal()
+        line_over = Signal()
+        m.d.comb += [
+            first.eq(new & at_line_start),
+            last.eq(new & Mux(flushing, x == last_x, item.eol)),
+            starts.eq(new & ~flushing & item.sof),
+            line_over.eq((last & (columns == 0)) | (repeat & (repeats == 1) & after_last)),
+        ]
+        now_age = Signal.like(row_age)
+        m.d.comb += now_age.eq(Mux(starts, 0, row_age))
+        entered_now = Signal.like(entered)
+        m.d.comb += entered_now.eq(Mux(first, 0, entered))
+        emits = Signal()
+        m.d.comb += [
+            emits.eq(slot & (now_age == rows) & (entered_now == 2 * columns)),
+            self.promised.eq(emits),
+        ]
+        with m.If(slot & (entered_now != 2 * columns)):
+            m.d.sync += entered.eq(entered_now + 1)
+        with m.Elif(slot):
+            m.d.sync += entered.eq(entered_now)
+        with m.If(new):
+            m.d.sync += [
+                at_line_start.eq(last),
+                x.eq(Mux(last, 0, x + 1)),
+                after_last.eq(last),
+                repeats.eq(Mux(first | last, columns, 0)),
+            ]
+            with m.If(last):
+                m.d.sync += last_x.eq(x)
+        with m.Elif(repeat):
+            m.d.sync += repeats.eq(repeats - 1)
+        with m.If(starts):
+            m.d.sync += [frame_rows.eq(1 << (height - 1)), in_first_row.eq(1), row_age.eq(0), fresh.eq(1)]
+        with m.If(new & ~flushing):
+            m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
+        # Rows end with their last repeat; what follows from it is not looked at before.
+        final = Signal()
+        ends = Signal()
+        m.d.comb += [
+            ends.eq(Mux(new & ~flushing, item.eof, ended)),
+            final.eq(Mux(flushing, below == 1, (rows == 0) & ends)),
+        ]
+        with m.If(line_over):
+            m.d.sync += [
+                frame_rows.eq(Cat(frame_rows[1:], Mux(flushing, below == 0, ~ends))),
+                in_first_row.eq(0),
+            ]
+            with m.If(row_age != rows):
+                m.d.sync += row_age.eq(now_age + 1)
+            with m.If(flushing):
+                m.d.sync += below.eq(below - 1)
+            with m.Elif(ends):
+                m.d.sync += below.eq(rows)
+        with m.If(emits):
+            m.d.sync += fresh.eq(0)
+
+        # Clock 1: the memory is read. Clock 2: its word is there. Clock 3: the column. Clock 4: the window.
+        flags = data.StructLayout(
+            {
+                "new": 1,
+                "slot": 1,
+                "emits": 1,
+                "top": 1,
+                "flushing": 1,
+                "inside": 1,
+                "x": range(self._max_width),
+                "rows": height,
+                **dict.fromkeys(MARKERS, 1),
+            }
+        )
+        occurs = data.StructLayout({"new": 1, "slot": 1, "emits": 1})
+        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(5)]
+        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(5)]
+        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(3)]
+        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(3)]
+        m.d.comb += [
+            happens[0].new.eq(new),
+            happens[0].slot.eq(slot),
+            happens[0].emits.eq(emits),
+            stages[0].top.eq(starts | in_first_row),
+            stages[0].flushing.eq(flushing),
+            # Of the copies of a line's first column the last is the pixel, of those of its last the first.
+            stages[0].inside.eq(Mux(new, ~first | (columns == 0), (repeats == 1) & ~after_last)),
+            stages[0].x.eq(x),
+            stages[0].rows.eq(Mux(starts, 1 << (height - 1), frame_rows)),
+            stages[0].sof.eq(fresh | (starts & (rows == 0))),
+            stages[0].eol.eq(line_over),
+            stages[0].eof.eq(line_over & final),
+            stages[0].damaged.eq(Mux(new & ~flushing, item.damaged | (damaged & ~starts), damaged)),
+            pixel[0].eq(item.element),
+            along[0].eq(item.companion),
+        ]
+        for k in range(4):
+            m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]
+        for k in range(2):
+            m.d.sync += [pixel[k + 1].eq(pixel[k]), along[k + 1].eq(along[k])]
+
+        element_bits, along_bits = len(Value.cast(pixel[0])), len(Value.cast(along[0]))
+        newest = Value.cast(pixel[2])
+        column = Signal(element_bits * height)  # the newest row last
+        held = Signal.like(column, reset_less=True)
+        trail = Signal(max(along_bits, 1) * (rows + 1))
+        held_trail = Signal.like(trail, reset_less=True)
+        if rows:
+            word = data.StructLayout({"above": element_bits * 2 * rows, "along": along_bits * rows})
+            m.submodules.lines = lines = PackedMemory(word, self._max_width)
+            above = lines.data.above
+            entering = Mux(stages[2].flushing, above[-element_bits:], newest)
+            m.d.comb += [
+                lines.read.eq(happens[1].new),
+                lines.read_at.eq(stages[1].x),
+                column.eq(Mux(stages[2].top, newest.replicate(height), Cat(above, entering))),
+                trail.eq(Cat(lines.data.along, Value.cast(along[2]))),
+                lines.write.eq(happens[3].new),
+                lines.write_at.eq(stages[3].x),
+                lines.written.above.eq(held[element_bits:]),
+                lines.written.along.eq(held_trail[along_bits:]),
+            ]
+        else:
+            m.d.comb += [column.eq(newest), trail.eq(Value.cast(along[2]))]
+        with m.If(happens[2].new):
+            m.d.sync += [held.eq(column), held_trail.eq(trail)]
+
+        past = [Signal(element_bits * height, name=f"column_{k}", reset_less=True) for k in range(across)]
+        insides = Signal(across, reset_less=True)
+        trails = [Signal(max(along_bits, 1), name=f"trail_{k}", reset_less=True) for k in range(columns + 1)]
+        with m.If(happens[3].slot):
+            m.d.sync += [
+                past[-1].eq(held),
+                *(past[k].eq(past[k + 1]) for k in range(across - 1)),
+                insides.eq(Cat(insides[1:], stages[3].inside) if across > 1 else stages[3].inside),
+                trails[-1].eq(held_trail[: max(along_bits, 1)]),
+                *(trails[k].eq(trails[k + 1]) for k in range(columns)),
+            ]
+        m.d.comb += [
+            self.valid.eq(happens[4].emits),
+            self.row_inside.eq(stages[4].rows),
+            self.column_inside.eq(insides),
+            Value.cast(self.companion).eq(trails[0]),
+            *(getattr(self, name).eq(stages[4][name]) for name in MARKERS),
+        ]
+        for r in range(height):
+            for c in range(across):
+                part = past[c][r * element_bits : (r + 1) * element_bits]
+                m.d.comb += Value.cast(self.window[r][c]).eq(part)
+        return m

@@ -1,0 +1,1 @@
+"""Stages between result streams: checks, filling and filters."""

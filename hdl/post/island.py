@@ -1,0 +1,58 @@
+"""Results that stand alone are taken back."""
+
+from amaranth.hdl import Module, Mux, Signal, Value
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.popcount import popcount
+from softdepth.hdl.memory.window import Window
+from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
+from softdepth.hdl.post.stage import delayed, window_stage
+from softdepth.spec.post import ISLAND_REACH
+from softdepth.spec.validity import Validity
+
+
+class Island(wiring.Component):
+    """A measurement with fewer than ``least`` measurements in 5x5, its own among them, becomes an island.
+
+    The frame's edge is repeated. An island has value 0 and confidence 0; other results pass. A result a
+    clock, but for 4 clocks a line and 2 lines a frame.
+
+    Members
+    -------
+    i, o : results, `post_layout`.
+    """
+
+    def __init__(self, value_bits: int, colour_bits: int, max_width: int, least: int) -> None:
+        self._layout = post_layout(value_bits, colour_bits)
+        self._max_width, self._least = max_width, least
+        super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        layout = without_markers(self._layout)
+        window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width)
+        found = [element for row in window.window for element in row]
+        count = Signal(range(len(found) + 1), reset_less=True)
+        island = Signal(reset_less=True)
+        m.d.sync += [count.eq(popcount(m, found)), island.eq(count < self._least)]
+        latency = 2
+        result = data.View(layout, delayed(m, Value.cast(window.companion), latency, "result"))
+        falls = is_measured(result.code) & island
+        payload = self.i.payload
+        window_stage(
+            m,
+            self.i,
+            self.o,
+            window,
+            latency,
+            element=is_measured(payload.code),
+            companion=Value.cast(payload)[: layout.size],
+            results={
+                "value": Mux(falls, 0, result.value),
+                "code": Mux(falls, Validity.ISLAND, result.code),
+                "confidence": Mux(falls, 0, result.confidence),
+                "colour": result.colour,
+            },
+        )
+        return m

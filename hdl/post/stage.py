@@ -1,0 +1,67 @@
+"""What stages with a window have in common."""
+
+from collections.abc import Mapping
+
+from amaranth.hdl import Module, Signal, Value
+from amaranth.lib import data
+from amaranth.lib.wiring import PureInterface
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.memory.window import MARKERS, Window
+
+
+def window_stage(
+    m: Module,
+    i: PureInterface,
+    o: PureInterface,
+    window: Window,
+    latency: int,
+    *,
+    element: Value,
+    companion: Value,
+    results: Mapping[str, Value],
+) -> None:
+    """Puts a window and what is computed of it between two streams.
+
+    Parameters
+    ----------
+    i, o : the streams; both have the markers.
+    latency : clocks from the window to ``results``.
+    element, companion : of the input's payload.
+    results : the output's payload but for its markers, ``latency`` clocks after the window.
+    """
+    m.submodules.window = window
+    payload = i.payload
+    layout = o.payload.shape()
+    m.submodules.queue = queue = ResultQueue(layout, Window.latency + latency)
+    m.d.comb += [
+        window.i.valid.eq(i.valid),
+        i.ready.eq(window.i.ready),
+        Value.cast(window.i.payload.element).eq(element),
+        Value.cast(window.i.payload.companion).eq(companion),
+        *(window.i.payload[name].eq(payload[name]) for name in MARKERS),
+        window.credit.eq(queue.credit),
+        queue.promised.eq(window.promised),
+        queue.put.eq(travelling(m, window.valid, latency, "put")[-1]),
+        *(queue.result[name].eq(delayed(m, getattr(window, name), latency, name)) for name in MARKERS),
+        *(Value.cast(queue.result[name]).eq(value) for name, value in results.items()),
+        o.valid.eq(queue.o.valid),
+        queue.o.ready.eq(o.ready),
+        o.payload.eq(queue.o.payload),
+    ]
+
+
+def delayed(m: Module, value: Value, clocks: int, name: str) -> Value:
+    """``value`` after so many clocks, in registers without a reset."""
+    value = Value.cast(value)
+    for clock in range(1, clocks + 1):
+        register = Signal(value.shape(), name=f"{name}_{clock}", reset_less=True)
+        m.d.sync += register.eq(value)
+        value = register
+    return value
+
+
+def structured(layout: data.StructLayout, value: Value) -> data.View:
+    """Bits seen as a layout."""
+    return data.View(layout, value)

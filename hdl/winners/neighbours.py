@@ -1,0 +1,124 @@
+"""What the costs beside a winner are, and the best of those that are not beside it."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.winners.shapes import cost_bits
+
+JOINED = 4
+"""Lanes that are joined between two registers, where one of them at most is not 0."""
+
+
+class Neighbours(wiring.Component):
+    """Looks at all costs of a pixel again when its winner is known.
+
+    One step a clock. A lane costs an equality for each of three candidates, a mask, and a node of the
+    minimum.
+
+    Parameters
+    ----------
+    maximum : of a cost.
+
+    Members
+    -------
+    valid, first, last, step : a step is taken again.
+    winner : of its slot, through all steps.
+    costs, excluded : of each lane's candidate, `costs_late` clocks after the step.
+    below, above : costs of the candidates before and after the winner, `latency` clocks after the last
+        step; 0 where there is none.
+    has_below, has_above : there is one, and it is not excluded.
+    runner_up : the smallest cost of those that are neither the winner nor beside it nor excluded.
+    has_runner_up : there is one.
+    """
+
+    costs_late = 2
+
+    def __init__(self, lanes: int, steps: int, maximum: int) -> None:
+        self._lanes, self._steps = lanes, steps
+        self._bits = cost_bits(maximum)
+        self._tree = (lanes - 1).bit_length()
+        self._joins = 0
+        count = lanes
+        while count > 1:
+            count = -(-count // JOINED)
+            self._joins += 1
+        self.latency = self.costs_late + 1 + max(self._tree, self._joins) + 1
+        cost = unsigned(self._bits)
+        super().__init__(
+            {
+                "valid": In(1),
+                "first": In(1),
+                "last": In(1),
+                "step": In(range(steps)),
+                "winner": In(range(lanes * steps)),
+                "costs": In(data.ArrayLayout(cost, lanes)),
+                "excluded": In(lanes),
+                "below": Out(cost),
+                "above": Out(cost),
+                "has_below": Out(1),
+                "has_above": Out(1),
+                "runner_up": Out(cost),
+                "has_runner_up": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        lanes, steps, bits = self._lanes, self._steps, self._bits
+        none = (1 << bits) - 1
+        # Lane k's candidate is `k * steps + steps - 1 - step`: what is left of the winner without the step.
+        left = Signal(range(-steps, lanes * steps), reset_less=True)
+        m.d.sync += left.eq(self.winner + self.step - (steps - 1))
+        chosen = {}
+        for name, offset in (("below", -1), ("winner", 0), ("above", 1)):
+            chosen[name] = Signal(lanes, name=f"is_{name}", reset_less=True)
+            m.d.sync += chosen[name].eq(Cat(left + offset == k * steps for k in range(lanes)))
+
+        ready = self.costs_late + 1
+        first = travelling(m, self.first, self.latency, "first")
+        valid = travelling(m, self.valid, self.latency, "valid")
+        joined = ready + max(self._tree, self._joins)
+
+        # A step's cost below the winner, or above it: at most one lane has it.
+        for name in ("below", "above"):
+            level: list[Value] = []
+            for k in range(lanes):
+                part = Signal(bits + 1, name=f"{name}_{k}", reset_less=True)
+                offered = Cat(self.costs[k], ~self.excluded[k])
+                m.d.sync += part.eq(offered & chosen[name][k].replicate(bits + 1))
+                level.append(part)
+            for depth in range(self._joins):
+                following: list[Value] = []
+                for k in range(0, len(level), JOINED):
+                    some = Signal(bits + 1, name=f"{name}_{depth}_{k}", reset_less=True)
+                    total = level[k]
+                    for other in level[k + 1 : k + JOINED]:
+                        total |= other
+                    m.d.sync += some.eq(total)
+                    following.append(some)
+                level = following
+            one = delayed(m, level[0], joined - ready - self._joins, f"late_{name}")
+            held = Signal(bits + 1, name=f"held_{name}", reset_less=True)
+            with m.If(valid[joined]):
+                m.d.sync += held.eq(Mux(first[joined], 0, held) | one)
+            m.d.comb += [getattr(self, name).eq(held[:bits]), getattr(self, f"has_{name}").eq(held[bits])]
+
+        pipeline = Pipeline(m, levels=1)
+        far: list[Word] = []
+        for k in range(lanes):
+            near = self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]
+            far.append(pipeline.result(Mux(near, none, self.costs[k]), 0, none, 0))
+
+        def less(a: Word, b: Word) -> Word:
+            a, b = pipeline.aligned(a, b)
+            return pipeline.result(Mux((b.value - a.value)[-1], b.value, a.value), 0, none, a.time)
+
+        smallest = pipeline.at(pipeline.tree(less, far), joined - self.costs_late).value
+        runner_up = Signal(bits, reset_less=True)
+        with m.If(valid[joined] & (first[joined] | (smallest - runner_up)[-1])):
+            m.d.sync += runner_up.eq(smallest)
+        m.d.comb += [self.runner_up.eq(runner_up), self.has_runner_up.eq(runner_up != none)]
+        return m

@@ -1,0 +1,75 @@
+"""The right view's winner, found along the diagonal of the left view's costs."""
+
+from amaranth.hdl import Const, Module, Mux, Signal, Value, unsigned
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.winners.shapes import cost_bits
+
+
+class RightWinner(wiring.Component):
+    """Of each right pixel the candidate that costs least; of equal costs the smallest.
+
+    Right pixel x is candidate d of left pixel x + d. So the best that it has found so far moves on by one
+    candidate with each left pixel, from 0 to the last, and leaves there. An excluded candidate changes
+    nothing: so a line's last right pixels leave during the slots that follow the line, whatever these are.
+    The state of a lane is its segment's, far end first; the near end takes over from the lane below.
+
+    Members
+    -------
+    valid, first : a step is taken, and it is its slot's first; never one without the other.
+    last : it is its slot's last.
+    step : its number.
+    costs, excluded : of each lane's candidate.
+    winner : of the right pixel that lies ``disparities - 1`` slots back, one clock after the first step,
+        held until the next.
+    """
+
+    latency = 1
+
+    def __init__(self, lanes: int, steps: int, maximum: int) -> None:
+        self._lanes, self._steps = lanes, steps
+        self._bits = cost_bits(maximum)
+        super().__init__(
+            {
+                "valid": In(1),
+                "first": In(1),
+                "last": In(1),
+                "step": In(range(steps)),
+                "costs": In(data.ArrayLayout(unsigned(self._bits), lanes)),
+                "excluded": In(lanes),
+                "winner": Out(range(lanes * steps)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        steps = self._steps
+        best = data.StructLayout({"cost": self._bits, "index": range(self._lanes * steps)})
+        # Nothing was found before the first candidate: any cost is less.
+        entering: Value = Const((1 << self._bits) - 1, best.size)
+        for lane in range(self._lanes):
+            ring = [Signal(best, name=f"best_{lane}_{k}", reset_less=True) for k in range(steps)]
+            far = Signal(best, name=f"far_{lane}", reset_less=True)  # what the far end was a slot before
+            before = Signal(best, name=f"before_{lane}")
+            if steps == 1:
+                m.d.comb += before.eq(entering)
+                entering = ring[0]
+            else:
+                m.d.comb += before.eq(Mux(self.last, entering, ring[-2]))
+                with m.If(self.first):
+                    m.d.sync += far.eq(ring[-1])
+                entering = far
+            now = Signal(best, name=f"now_{lane}")
+            better = ~self.excluded[lane] & (self.costs[lane] - before.cost)[-1]
+            m.d.comb += [
+                now.cost.eq(Mux(better, self.costs[lane], before.cost)),
+                now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),
+            ]
+            with m.If(self.valid):
+                m.d.sync += [ring[0].eq(now), *(ring[k].eq(ring[k - 1]) for k in range(1, steps))]
+        winner = Signal.like(self.winner, reset_less=True)
+        with m.If(self.first):
+            m.d.sync += winner.eq(now.index)
+        m.d.comb += self.winner.eq(winner)
+        return m

@@ -1,0 +1,180 @@
+"""Costs in, results out: winners of both views, what lies beside the left one, and whether both agree."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.costs.whole_costs import tags_layout
+from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.memory.window import MARKERS
+from softdepth.hdl.post.confidence import Confidence
+from softdepth.hdl.post.layout import post_layout
+from softdepth.hdl.post.left_right import LeftRight
+from softdepth.hdl.post.sixteenths import Sixteenths
+from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.winners.neighbours import Neighbours
+from softdepth.hdl.winners.right_winner import RightWinner
+from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.spec.config import CONFIDENCE_BITS, Config
+from softdepth.spec.validity import Validity
+
+
+class WholeWinners(wiring.Component):
+    """Finds each pixel's result among the costs that come step by step; back-pressure reaches `credit`.
+
+    Members
+    -------
+    valid, first, last, step, costs, excluded, tags : as they leave `WholeCosts`.
+    credit, begins : a slot may begin in this clock, and one does, ``ahead`` clocks before its first costs.
+    o : a stream of results, `post_layout`.
+    """
+
+    def __init__(self, config: Config, maximum: int, colour_bits: int, ahead: int) -> None:
+        self._config, self._maximum, self._ahead = config, maximum, ahead
+        self._tags = tags_layout(colour_bits)
+        self._bits = cost_bits(maximum)
+        self.layout = post_layout(config.result_bits, colour_bits)
+        cost = unsigned(self._bits)
+        super().__init__(
+            {
+                "credit": Out(1),
+                "begins": In(1),
+                "valid": In(1),
+                "first": In(1),
+                "last": In(1),
+                "step": In(range(config.steps)),
+                "costs": In(data.ArrayLayout(cost, config.lanes)),
+                "excluded": In(config.lanes),
+                "tags": In(self._tags),
+                "o": Out(stream.Signature(self.layout)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config, post = self._config, self._config.post
+        lanes, steps = config.lanes, config.steps
+        cost = unsigned(self._bits)
+
+        # The left winner, `found_time` clocks after the last step.
+        m.submodules.tree = tree = ArgminTree(cost, unsigned(0), lanes)
+        best = candidate_layout(cost, unsigned(0), config.disparities)
+        m.submodules.sequence = sequence = ArgminSequence(best, steps)
+        found_time = tree.latency + sequence.latency
+        again = found_time + steps  # from a step to when it is looked at again
+        m.submodules.neighbours = beside = Neighbours(lanes, steps, self._maximum)
+        late = again + beside.latency
+        judged = late + (Sixteenths.latency if post.fraction_bits else Confidence.latency)
+        valid = travelling(m, self.valid, judged, "valid")
+        first = travelling(m, self.first, again, "first")
+        last = travelling(m, self.last, judged, "last")
+        tree_step = delayed(m, self.step, tree.latency, "tree_step")
+        for k in range(lanes):
+            m.d.comb += [
+                tree.i[k].num.eq(self.costs[k]),
+                tree.i[k].excluded.eq(self.excluded[k]),
+            ]
+        m.d.comb += [
+            sequence.valid.eq(valid[tree.latency]),
+            sequence.last.eq(last[tree.latency]),
+            sequence.i.num.eq(tree.o.num),
+            sequence.i.index.eq(tree.o.index * steps + (steps - 1 - tree_step)),
+            sequence.i.excluded.eq(tree.o.excluded),
+        ]
+        winner = Signal(range(config.disparities), reset_less=True)
+        smallest = Signal(cost, reset_less=True)
+        with m.If(last[found_time]):
+            m.d.sync += [winner.eq(sequence.o.index), smallest.eq(sequence.o.num)]
+
+        # All costs again, beside the winner.
+        everything = Cat(Value.cast(self.costs), self.excluded)
+        m.submodules.again = kept = Delay(len(everything), again + Neighbours.costs_late)
+        m.d.comb += [
+            kept.en.eq(1),
+            kept.i.eq(everything),
+            Cat(Value.cast(beside.costs), beside.excluded).eq(kept.o),
+            beside.valid.eq(valid[again]),
+            beside.first.eq(first[again]),
+            beside.last.eq(last[again]),
+            beside.step.eq(self._late(m, self.step, again, "step")),
+            beside.winner.eq(winner),
+        ]
+        winner_late = delayed(m, winner, beside.latency, "winner")
+        smallest_late = delayed(m, smallest, beside.latency, "smallest")
+
+        value: Value = delayed(m, winner_late, judged - late, "whole")
+        if post.fraction_bits:
+            m.submodules.sixteenths = sixteenths = Sixteenths(config.disparities, self._bits)
+            m.d.comb += [
+                sixteenths.winner.eq(winner_late),
+                sixteenths.cost.eq(smallest_late),
+                sixteenths.below.eq(beside.below),
+                sixteenths.above.eq(beside.above),
+                sixteenths.usable.eq(beside.has_below & beside.has_above),
+            ]
+            value = sixteenths.o
+        m.submodules.confidence = confidence = Confidence(self._bits, config.confidence_shift)
+        m.d.comb += [
+            confidence.cost.eq(smallest_late),
+            confidence.runner_up.eq(beside.runner_up),
+            confidence.has_runner_up.eq(beside.has_runner_up),
+        ]
+        sure = delayed(m, confidence.o, judged - late - Confidence.latency, "sure")
+        tags = data.View(self._tags, self._late(m, Value.cast(self.tags), judged, "tags"))
+
+        found = data.StructLayout(
+            {"value": config.result_bits, "confidence": CONFIDENCE_BITS, "tags": self._tags}
+        )
+        here = Signal(found)
+        m.d.comb += [here.value.eq(value), here.tags.eq(tags)]
+        if post.confidence:
+            m.d.comb += here.confidence.eq(sure)
+        done: Value = last[judged]
+        emits: Value = last[judged] & tags.emits
+        agrees: Value | None = None
+        result: data.View = here
+        latency = self._ahead + judged
+        if post.check:
+            m.submodules.right = right = RightWinner(lanes, steps, self._maximum)
+            m.submodules.check = check = LeftRight(config.disparities, found, post.tolerance)
+            m.d.comb += [
+                right.valid.eq(self.valid),
+                right.first.eq(self.first),
+                right.last.eq(self.last),
+                right.step.eq(self.step),
+                right.costs.eq(self.costs),
+                right.excluded.eq(self.excluded),
+                check.valid.eq(done),
+                check.emits.eq(emits),
+                check.winner.eq(delayed(m, winner_late, judged - late, "checked")),
+                check.result.eq(here),
+                check.right.eq(self._late(m, right.winner, judged - RightWinner.latency, "right")),
+            ]
+            done, emits, agrees, result = check.done, check.o_emits, check.agrees, check.o
+            latency += LeftRight.latency
+
+        m.submodules.queue = queue = ResultQueue(self.layout, -(-latency // steps) + 2)
+        kept_result: Value = agrees if agrees is not None else ~Signal(name="never")
+        code = Mux(result.tags.full, Validity.FULL, Validity.PARTIAL)
+        m.d.comb += [
+            self.credit.eq(queue.credit),
+            queue.promised.eq(self.begins),
+            queue.put.eq(emits),
+            queue.dropped.eq(done & ~emits),
+            queue.result.value.eq(Mux(kept_result, result.value, 0)),
+            queue.result.code.eq(Mux(kept_result, code, Validity.INCONSISTENT)),
+            queue.result.confidence.eq(Mux(kept_result, result.confidence, 0)),
+            queue.result.colour.eq(result.tags.colour),
+            *(queue.result[name].eq(result.tags[name]) for name in MARKERS),
+        ]
+        wiring.connect(m, queue.o, wiring.flipped(self.o))
+        return m
+
+    def _late(self, m: Module, value: Value, clocks: int, name: str) -> Value:
+        """``value`` after so many clocks, in memory where they are many."""
+        m.submodules[f"late_{name}"] = late = Delay(len(value), clocks)
+        m.d.comb += [late.en.eq(1), late.i.eq(value)]
+        return late.o

@@ -1,0 +1,76 @@
+"""Descriptors of both views, against loops, frames of all sizes back to back; and ends of frames."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from softdepth.hdl.front.descriptors import Descriptors
+from softdepth.hdl.front.frame_ends import FrameEnds
+from softdepth.hdl.memory.window import raster_layout
+from tests.support.results import markers
+from tests.support.simulation import config, stream_through
+
+SIZES = [(7, 9), (1, 4), (3, 5), (5, 16)]
+PIXEL = 24
+
+
+def luma(pixel: NDArray[np.int64]) -> int:
+    return int(pixel[0] + 2 * pixel[1] + pixel[2]) >> 2
+
+
+@pytest.mark.parametrize("rates", [(1.0, 1.0), (0.6, 0.4)])
+def test_descriptors(rates: tuple[float, float]) -> None:
+    rng = np.random.default_rng(1)
+    contrasts = (256, 20, 256, 40)
+    frames = [rng.integers(0, c, (2, *size, 3)) for size, c in zip(SIZES, contrasts, strict=True)]
+    layout = raster_layout(2 * PIXEL)
+    sent = []
+    for frame in frames:
+        _, height, width, _ = frame.shape
+        for y in range(height):
+            for x in range(width):
+                word = sum(int(v) << 8 * k for k, v in enumerate(frame[:, y, x].reshape(-1)))
+                item = layout.const({"element": word, **markers(y, x, height, width)})
+                sent.append(item.as_value().value)
+    dut = Descriptors(3, 8, 16, census=True, caps={"narrow": 31, "wide": 100})
+    found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
+    for frame in frames:
+        _, height, width, _ = frame.shape
+        lumas = [[[luma(p) for p in row] for row in view] for view in frame]
+        for y in range(height):
+            for x in range(width):
+                got = next(found)
+                for view, name in zip(lumas, ("left", "right"), strict=True):
+
+                    def at(dy: int, dx: int, view: list = view, y: int = y, x: int = x) -> int:
+                        row = min(max(y + dy, 0), len(view) - 1)
+                        return view[row][min(max(x + dx, 0), len(view[0]) - 1)]
+
+                    around = [(dy, dx) for dy in range(-3, 4) for dx in range(-3, 4) if (dy + dx) % 2 == 0]
+                    around.remove((0, 0))
+                    census = sum((at(*place) < at(0, 0)) << k for k, place in enumerate(around))
+                    sobel = sum(k * (at(dy, 1) - at(dy, -1)) for dy, k in ((-1, 1), (0, 2), (1, 1)))
+                    assert got[name].census == census, (y, x)
+                    assert got[name].narrow == min(max(sobel, -31), 31)
+                    assert got[name].wide == min(max(sobel, -100), 100)
+                assert got.colour == sum(int(v) << 8 * k for k, v in enumerate(frame[0, y, x]))
+                assert got.eof == markers(y, x, height, width)["eof"]
+    assert next(found, None) is None
+
+
+@pytest.mark.parametrize("rates", [(1.0, 1.0), (0.5, 0.6)])
+def test_frame_ends(rates: tuple[float, float]) -> None:
+    dut = FrameEnds(config(criteria=[{"window": 3}], cost="sum"))
+    layout = dut.i.payload.shape()
+    sent, expected = [], []
+    for number, bare in enumerate((False, True, True, False)):
+        for k in range(8):
+            last = k == 7
+            item = {"left": 8 * number + k, "sof": k == 0, "eol": k % 4 == 3, "eof": last and not bare}
+            sent.append(layout.const(item).as_value().value)
+            damaged = last and bare and number == 2
+            expected.append((8 * number + k, k == 0, k % 4 == 3, last, damaged))
+        if bare:
+            sent.append(layout.const({"end": 1, "damaged": number == 2}).as_value().value)
+    found = stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads
+    assert [(p.element, p.sof, p.eol, p.eof, p.damaged) for p in found] == expected

@@ -30,8 +30,8 @@ def check_export(config: Config, name: str = TOP) -> None:
         )
     if config.whole_frame:
         raise ConfigError(
-            f"'{config.name}' has no border band, and the text for such a core's user is not written yet",
-            "export a configuration whose criteria are of kind 'sad', or take softdepth.hdl.verilog.to_verilog",
+            f"'{config.name}' has no border band, and the text for its user is not written yet",
+            "export a configuration whose criteria are of kind 'sad', or call hdl.verilog.to_verilog",
         )
     if config.reference == "right":
         raise ConfigError(

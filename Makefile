@@ -77,7 +77,7 @@ types: $(READY) ## static types
 	@$(BIN)/pyright --pythonpath $(BIN)/python
 
 docs: $(READY) ## the documentation as a site: build/site/index.html
-	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file scripts/mkdocs.yml
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --config-file scripts/mkdocs.yml
 
 lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgrade)
 	@$(BIN)/uv pip compile pyproject.toml --group dev --group build --universal --python-version 3.11 \

@@ -156,7 +156,6 @@ def test_the_site_fails_for_what_is_wrong(project, tmp_path, fault):
         "-m",
         "mkdocs",
         "build",
-        "-q",
         "-s",
         "-f",
         str(tmp_path / "scripts/mkdocs.yml"),

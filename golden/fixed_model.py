@@ -33,12 +33,11 @@ from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.fixed_operators import conclude
 from softdepth.golden.costs.fuzzy.inference import Memberships
 from softdepth.golden.front.borders import validity_codes
-from softdepth.golden.front.offset import first_column, from_zero, overlap, placed
+from softdepth.golden.front.offset import first_column, from_zero, overlap
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
-from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
+from softdepth.golden.front.views import column_in_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap, Result
-from softdepth.golden.post import stages as post
-from softdepth.golden.winners.confidence import confidence
+from softdepth.golden.post.maps import stage_maps
 from softdepth.golden.winners.cost import Comparison, Cost, less, less_fraction
 from softdepth.golden.winners.frame import Winners, winners
 from softdepth.spec.config import LITERAL_INPUT, QUOTIENT_BITS, AnyCriterion, Config
@@ -84,22 +83,11 @@ def stages(left: Image, right: Image, config: Config) -> Stages:
     """What `disparity` gives, and all that it comes from. Errors as there."""
     _check(left, right, config)
     reference, other = overlap(*to_core_view(left, right, config), config)
-    height, width, _ = reference.shape
     inner = from_zero(config)
     found = winners(
         reference, other, inner, lambda d, criteria: cost_of(inner, d, criteria), comparison(inner)
     )
-    done = post.stages(inner, found, validity_codes(height, width, inner), reference, config.pixel.bits)
-    sure = confidence(inner, found) if config.post.confidence else None
-    maps, fraction_bits = {}, 0
-    for stage in done:
-        if stage.name == "sixteenths":
-            fraction_bits = config.post.fraction_bits
-        measured = stage.code < Validity.BORDER
-        kept = None if sure is None else np.where(measured, sure, np.uint8(0))
-        after = DisparityMap(stage.disparity, stage.code, fraction_bits, kept)
-        maps[stage.name] = from_core_view(placed(after, config, left.shape[1]), config)
-    return Stages(found, maps)
+    return Stages(found, stage_maps(config, found, reference, left.shape[1]))
 
 
 def cost_of(config: Config, d: int, criteria: list[Values]) -> Cost:

@@ -5,16 +5,19 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.golden.costs.candidates import band, bands
+from softdepth.golden.costs.candidates import band
 from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.inference import conclusions
 from softdepth.golden.costs.fuzzy.operators import operator
 from softdepth.golden.front.borders import validity_codes
-from softdepth.golden.front.offset import first_column, from_zero, overlap, placed
+from softdepth.golden.front.offset import first_column, from_zero, overlap
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
-from softdepth.golden.front.views import column_in_core_view, from_core_view, to_core_view
+from softdepth.golden.front.views import column_in_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap
-from softdepth.spec.config import LITERAL_INPUT, Config
+from softdepth.golden.post.maps import stage_maps
+from softdepth.golden.winners.cost import Comparison, less
+from softdepth.golden.winners.frame import winners
+from softdepth.spec.config import LITERAL_INPUT, QUOTIENT_BITS, Config, Sad
 from softdepth.spec.errors import ConfigError
 from softdepth.spec.rules import CONCLUSIONS, weight
 from softdepth.spec.validity import Validity
@@ -37,8 +40,11 @@ def disparity(
     ----------
     left, right : rectified pair of one shape, `front.pair.Image`.
     config : the method. Its number formats (`label_bits`, `membership_bits`) do not apply here.
-    label : T, the middle label of every criterion's memberships (eq. 9).
+    label : T, the middle label of the memberships (eq. 9) of colour SADs; other criteria, which the paper
+        does not have, have theirs at ``2**label_bits``.
     delta, k : softness of `soft_min_1` (eq. 5) and `soft_min_2` (eq. 6); by default the configuration's.
+
+    Post-processing is the fixed model's, of these winners.
 
     Costs that are equal in exact arithmetic may differ in their last bit here, and then no tie is
     seen. The fixed model has no such doubt.
@@ -49,18 +55,15 @@ def disparity(
     inner = from_zero(config)
     cost = _cost_function(inner, label, delta, k)
     reference, other = overlap(*to_core_view(left, right, config), config)
-    height, width, _ = reference.shape
-    disparities = np.zeros((height, width), np.uint16)
-    for part in bands(reference, other, inner):
-        best = np.full(part.shape, np.inf)
-        winner = disparities[part.rows, part.columns]
-        for d, criteria in part.candidates():
-            costs_d = cost(d, criteria)
-            better = costs_d < best[:, d:]
-            np.copyto(best[:, d:], costs_d, where=better)
-            winner[:, d:][better] = d
-    found = DisparityMap(disparities, validity_codes(height, width, inner))
-    return from_core_view(placed(found, config, left.shape[1]), config)
+    found = winners(
+        reference,
+        other,
+        inner,
+        lambda d, criteria: (cost(d, criteria),),
+        # In the fixed model's units, for the margins.
+        Comparison(less, lambda c: c[0] if config.cost == "sum" else c[0] * 2.0**QUOTIENT_BITS, np.inf),
+    )
+    return list(stage_maps(config, found, reference, left.shape[1]).values())[-1]
 
 
 def costs(
@@ -115,19 +118,23 @@ def _cost_function(
         delta=config.softness if delta is None else delta,
         k=config.sharpness if k is None else k,
     )
-    replacement = {"top": 2 * label, "literal": LITERAL_INPUT}.get(config.compensation.reading, 0)
+    labels = [
+        label if isinstance(c, Sad) and c.source == "colour" else 2.0**c.label_bits for c in config.criteria
+    ]
+    literal = config.compensation.reading == "literal"
+    replacement = [LITERAL_INPUT if literal else int(2 * at) for at in labels]
 
     def fuzzy(d: int, criteria: list[Values]) -> Array:
-        s = compensate(config, d, criteria, [replacement] * len(criteria))
+        s = compensate(config, d, criteria, replacement)
         numerator, denominator = np.zeros(s[0].shape), np.zeros(s[0].shape)
-        degrees = [memberships(s_i, label) for s_i in s]
+        degrees = [memberships(s_i, at) for s_i, at in zip(s, labels, strict=True)]
         for index, y_k in conclusions(degrees, theta, config.rules, config.firing):
             numerator += y_k * (weight(index) - weight(CONCLUSIONS))
             denominator += y_k
         # A sum of zero or below judges nothing: the candidate loses against any other.
         return np.divide(numerator, denominator, out=np.full(s[0].shape, np.inf), where=denominator > 0)
 
-    def sad(d: int, criteria: list[Values]) -> Array:
-        return criteria[0].astype(np.float64)
+    def total(d: int, criteria: list[Values]) -> Array:
+        return sum(criteria[1:], start=criteria[0]).astype(np.float64)
 
-    return sad if config.cost == "sum" else fuzzy
+    return total if config.cost == "sum" else fuzzy

@@ -45,9 +45,9 @@ def stages(
 ) -> list[Stage]:
     """The frame after each stage, in the core's view; `image` is the reference view."""
     post = config.post
-    code = codes.copy()
+    code = codes
     measured = code < Validity.BORDER
-    values = np.where(measured, found.left, 0).astype(np.uint16)
+    values = np.where(measured, found.left, np.uint16(0))
     done = [Stage("winner", values, code)]
     if post.check:
         lost = measured & ~consistent(found.left, found.right, post.tolerance)

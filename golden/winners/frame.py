@@ -33,7 +33,7 @@ class Winners:
     runner_up : the least cost of those that are neither.
     never : the number that stands for a candidate that does not take part.
 
-    What the configuration does not ask for stays 0.
+    What the configuration does not ask for has no pixels.
     """
 
     left: NDArray[np.uint16]
@@ -47,15 +47,20 @@ class Winners:
 
 def winners(left: Image, right: Image, config: Config, cost: CostOf, comparison: Comparison) -> Winners:
     """Judge every pixel: `left` is the reference view, `cost` what a candidate costs."""
-    shape = left.shape[:2]
+    shape, post = left.shape[:2], config.post
     kind = np.float64 if isinstance(comparison.never, float) else np.int32
+
+    def plane(wanted: bool, kind: type) -> Array:
+        return np.zeros(shape if wanted else (0, 0), kind)
+
+    numbers = _numbers(config)
     found = Winners(
-        left=np.zeros(shape, np.uint16),
-        right=np.zeros(shape, np.uint16),
-        below=np.zeros(shape, kind),
-        at=np.zeros(shape, kind),
-        above=np.zeros(shape, kind),
-        runner_up=np.zeros(shape, kind),
+        left=plane(True, np.uint16),
+        right=plane(post.check, np.uint16),
+        below=plane(numbers, kind),
+        at=plane(numbers, kind),
+        above=plane(numbers, kind),
+        runner_up=plane(post.confidence, kind),
         never=comparison.never,
     )
     for part in bands(left, right, config):
@@ -63,11 +68,17 @@ def winners(left: Image, right: Image, config: Config, cost: CostOf, comparison:
     return found
 
 
+def _numbers(config: Config) -> bool:
+    """Costs around the winner are asked for."""
+    return bool(config.post.fraction_bits) or config.post.confidence
+
+
 def _judge(part: Band, config: Config, cost: CostOf, comparison: Comparison, found: Winners) -> None:
     place = np.s_[part.rows, part.columns]
     post = config.post
-    first, second = Left(part.shape, comparison), Right(part.shape, comparison)
-    numbers = bool(post.fraction_bits) or post.confidence
+    first = Left(part.shape, comparison)
+    second = Right(part.shape if post.check else (0, 0), comparison)
+    numbers = _numbers(config)
     volume = np.empty((0, 0, 0), found.at.dtype)
     if numbers:
         candidates = min(config.disparities, part.shape[1])
@@ -80,7 +91,8 @@ def _judge(part: Band, config: Config, cost: CostOf, comparison: Comparison, fou
         if numbers:
             volume[d, :, d:] = comparison.number(costs)
     found.left[place] = first.winner
-    found.right[place] = second.winner
+    if post.check:
+        found.right[place] = second.winner
     if numbers:
         beside = neighbours(volume, first.winner, comparison.never)
         found.below[place], found.at[place], found.above[place] = beside

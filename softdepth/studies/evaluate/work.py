@@ -118,7 +118,9 @@ def evaluate_scene(scene: Scene, plan: Plan) -> SceneWork:
 def everywhere(found: DisparityMap) -> np.ndarray:
     """A map in pixels with a value everywhere: what has none is filled as `fill` fills it."""
     if not (found.given | (found.code == Validity.NOTHING)).all():
-        return fill(found.disparity, found.valid) / np.float32(1 << found.fraction_bits)
+        lowest = int(found.disparity.min())  # negative where candidates are
+        above = fill((found.disparity.astype(np.int32) - lowest).astype(np.uint16), found.valid)
+        return (above + np.float32(lowest)) / np.float32(1 << found.fraction_bits)
     return found.pixels
 
 

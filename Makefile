@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full bench compare paper inspections bitstream boards program utilization savings lint format types docs lock export reading readme clean distclean preflight
+.PHONY: help demo test test-fast test-full bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -47,6 +47,12 @@ paper: $(READY) ## the paper's tables and pictures: out/paper, docs/paper.md
 # Scenes with known depth: in the folder that SOFTDEPTH_SCENES names.
 inspections: $(READY) ## how often softdepth inspect is right: docs/inspect.md
 	@$(BIN)/python -m softdepth.studies.inspections
+
+# Folders of scenes in SOFTDEPTH_SCENES and SOFTDEPTH_DATA; ARGS="--leave-out NAME" for what shall not count.
+accuracy: $(READY) ## presets and OpenCV on scenes with known depth: docs/accuracy.md
+	@$(BIN)/softdepth evaluate $(if $(SOFTDEPTH_SCENES),--scenes "$(SOFTDEPTH_SCENES)") \
+		$(if $(SOFTDEPTH_DATA),--scenes "$(SOFTDEPTH_DATA)") \
+		--degraded --fuzzy --document docs/accuracy.md $(ARGS)
 
 compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
 	@for method in "paper mean" "paper min" "compact mean" "lite mean"; do set -- $$method; \

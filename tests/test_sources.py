@@ -6,7 +6,7 @@ from softdepth import sources
 from softdepth.sources import BUILDS_ON, covered, folder, sources_hash
 from tests.support.imports import graph, modules
 
-SHARED = {"__init__.py", "errors.py", "files.py", "markers.py", "screen.py", "sources.py"}
+SHARED = {"__init__.py", "errors.py", "files.py", "markers.py", "webpage.py", "screen.py", "sources.py"}
 """Modules that decide no result: how errors read, where files and tables lie."""
 
 

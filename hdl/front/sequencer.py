@@ -5,6 +5,8 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.frame_guard import item_layout
+from softdepth.hdl.front.step_counter import StepCounter
+from softdepth.hdl.front.support_rows import SupportRows
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
 
@@ -20,7 +22,14 @@ class Sequencer(wiring.Component):
     Results leave in raster order, one with each pixel: the result of (x, y) leaves with the pixel
     at (x + reach_right, y + reach_rows), where its support is complete. The last results of a
     frame have no such pixel. They are border results, need no data, and leave with the first
-    pixels of the next frame, or by themselves in clocks without a pixel (the frame is *drained*).
+    pixels of the next frame, or by themselves in clocks without a pixel.
+
+    States
+    ------
+    WAIT : no result leaves, as the frame's first support is not complete.
+    OWN : a result of this frame leaves with each of its pixels.
+    DRAIN : the frame before has results left. The next frame may begin meanwhile, and waits where results
+        of its own would leave, or where it ends.
 
     Members
     -------
@@ -57,149 +66,123 @@ class Sequencer(wiring.Component):
         m = Module()
         config = self._config
         item = self.i.payload
-
-        # The frame that comes in.
-        support_y = 2 * config.reach_rows
-        y = Signal(range(support_y + 1))  # stops counting at the first row with inner pixels
-        room = Signal(range(config.disparities))  # stops counting at the last candidate
-        width = Signal(range(config.max_width))  # last column of the line before
-        width_less_1 = Signal.like(width)
-        row = Signal.like(y)
-        # Both rows lie below a frame's first, whose first pixel says of itself that it completes nothing.
-        on_first_row = Signal()  # `row` is the first that completes a result's support, and none did yet
-        on_inner_rows = Signal()  # and the first that completes one inside the image
-        m.d.comb += row.eq(Mux(item.sof, 0, y))
-
-        # The frame whose results go out: this one once `started`, the one before while `draining`.
-        started = Signal()
-        draining = Signal()
-        fresh = Signal()
-        out_left = Signal(range(config.max_width))  # results to come on its line after the next
-        out_last = Signal()  # none
-        out_width = Signal(range(config.max_width), reset_less=True)
-        rows_left = Signal(range(config.reach_rows + 1), reset_less=True)
-        drain_damaged = Signal(reset_less=True)
-
-        starts = Signal()
-        own = Signal()
-        ends = Signal()
-        m.d.comb += [
-            starts.eq(on_first_row & item.completes),
-            own.eq(started | starts),
-            ends.eq(item.eof | item.end),
-        ]
+        m.submodules.steps = steps = StepCounter(config.steps)
+        m.submodules.rows = rows = SupportRows(config.reach_rows)
 
         # What happens in this clock.
-        busy = Signal()  # a pixel's step follows, known a clock before
-        held = Signal()  # so is this: that, or no credit
-        emits = Signal()
-        drains = Signal()
+        taken = Signal()
+        starts = Signal()  # the item completes the support of the frame's first result
+        ends = Signal()  # the item ends the frame
+        draining, own = Signal(), Signal()  # whose results leave: those of the frame before, or of this frame
+        drains = Signal()  # a result leaves by itself
         m.d.comb += [
-            emits.eq(own | draining),
-            # Whether or not a result leaves with the pixel: the queue waits for this, so that little decides.
-            self.i.ready.eq(~held & ~(draining & (starts | ends))),
-            self.load.eq(self.i.valid & self.i.ready & ~item.end),
-            drains.eq(draining & ~held & ~self.load),
-            self.issued.eq(drains | (self.load & emits)),
+            starts.eq(rows.first & item.completes),
+            ends.eq(item.eof | item.end),
+            # Needs a credit even if no result leaves: keeps `ready` short.
+            self.i.ready.eq(~steps.held & ~(draining & (starts | ends))),
+            taken.eq(self.i.valid & self.i.ready),
+            self.load.eq(taken & ~item.end),
+            drains.eq(draining & ~steps.held & ~self.load),
+            self.issued.eq(drains | (self.load & (own | draining))),
+            rows.line_ends.eq(self.load & item.eol),
+            rows.frame_ends.eq(taken & ends),
         ]
 
-        inner = Signal()
-        first_out = Signal()
-        begins = Signal()  # `starts`, and the frame before is out of the way
+        line_over = Signal()  # the result that leaves is its line's last
+        frame_over = Signal()  # and its frame's
+        with m.FSM(name="results") as results:
+            with m.State("WAIT"):
+                m.d.comb += own.eq(starts)
+                with m.If(taken & starts):
+                    m.next = "OWN"
+                with m.If(taken & ends):
+                    m.next = "DRAIN"
+            with m.State("OWN"):
+                m.d.comb += own.eq(1)
+                with m.If(taken & ends):
+                    m.next = "DRAIN"
+            with m.State("DRAIN"), m.If(self.issued & frame_over):
+                m.next = "WAIT"
+            m.d.comb += draining.eq(results.ongoing("DRAIN"))
+
+        # Where the results are that leave.
+        width = Signal(range(config.max_width))  # of the frame that comes in: its last column
+        width_less_1 = Signal.like(width)
+        left = Signal.like(width)  # results of the line that are still to come after the next
+        none_left = Signal()
+        line_width = Signal.like(width, reset_less=True)  # of the frame that goes out
+        lines_left = Signal(range(config.reach_rows + 1), reset_less=True)  # after this one
+        fresh = Signal()  # a frame without a result so far has ended: its first is next
+        drain_damaged = Signal(reset_less=True)
+        begins = Signal()  # the frame's first result leaves with this pixel
         m.d.comb += [
             begins.eq(starts & ~draining),
-            inner.eq(own & on_inner_rows & item.inner),
-            first_out.eq(fresh | begins),
+            line_over.eq(none_left & ~begins),  # lines have more than one pixel
+            frame_over.eq(draining & line_over & (lines_left == 0)),
         ]
+        with m.If(self.issued):
+            m.d.sync += [
+                fresh.eq(0),
+                left.eq(Mux(begins, width_less_1, left - 1)),
+                none_left.eq((left == 1) & ~begins),
+            ]
+            with m.If(begins):
+                m.d.sync += line_width.eq(width)
+            with m.If(line_over):
+                m.d.sync += [left.eq(line_width), none_left.eq(0)]
+            with m.If(draining & line_over):
+                m.d.sync += lines_left.eq(lines_left - 1)
+        with m.If(self.load & item.eol):
+            m.d.sync += [width.eq(item.x), width_less_1.eq(item.x - 1)]
+        with m.If(taken & ends):
+            m.d.sync += drain_damaged.eq(item.damaged)
+            with m.If(own):
+                # The row in progress ends inside the frame, unless nothing reaches to the right.
+                m.d.sync += lines_left.eq(config.reach_rows - (config.reach_right == 0))
+            with m.Else():
+                last_column = Mux(item.end, width, item.x)
+                m.d.sync += [
+                    lines_left.eq(rows.rows - item.end),  # an end comes after its last row was counted
+                    fresh.eq(1),
+                    left.eq(last_column),
+                    none_left.eq(0),
+                    line_width.eq(last_column),
+                ]
+
+        # Candidates whose partners lie in the image, but for the first; no more are counted than there are.
+        room = Signal(range(config.disparities))
         room_now = Signal.like(room)
         m.d.comb += room_now.eq(Mux(item.first_inner, 0, room))
-        tags = Signal(tags_layout(), reset_less=True)
-        emit = Signal()
-        drain = Signal()
-        at_eol = Signal()
-        m.d.comb += at_eol.eq(out_last & ~begins)  # lines have more than one pixel
+        with m.If(self.load & item.inner & (room_now != config.disparities - 1)):
+            m.d.sync += room.eq(room_now + 1)
 
+        inner = Signal()
+        tags = Signal(tags_layout(), reset_less=True)
+        m.d.comb += inner.eq(own & rows.inner & item.inner)
         with m.If(self.issued):
             inner_code = Mux(room_now == config.disparities - 1, Validity.FULL, Validity.PARTIAL)
             m.d.sync += [
-                tags.code.eq(Mux(draining | ~inner, Validity.BORDER, inner_code)),
-                tags.sof.eq(first_out),
-                tags.eol.eq(at_eol),
-                tags.eof.eq(draining & at_eol & (rows_left == 0)),
+                tags.code.eq(Mux(inner, inner_code, Validity.BORDER)),
+                tags.sof.eq(fresh | begins),
+                tags.eol.eq(line_over),
+                tags.eof.eq(frame_over),
                 tags.damaged.eq(Mux(draining, drain_damaged, item.damaged)),
-                fresh.eq(0),
-                out_left.eq(Mux(begins, width_less_1, out_left - 1)),
-                out_last.eq((out_left == 1) & ~begins),
             ]
-            with m.If(at_eol):
-                m.d.sync += [out_left.eq(out_width), out_last.eq(0)]
-            with m.If(begins):
-                m.d.sync += out_width.eq(width)
-            with m.If(draining & at_eol):
-                m.d.sync += rows_left.eq(rows_left - 1)
-                with m.If(rows_left == 0):
-                    m.d.sync += draining.eq(0)
 
+        drained = Signal()
+        emits = Signal()  # a result leaves with the pixel's last step
+        m.d.sync += drained.eq(drains)
         with m.If(self.load):
             m.d.sync += [
                 self.first_of_line.eq(item.first),
                 self.first_inner.eq(item.first_inner),
-                emit.eq(emits),
+                emits.eq(own | draining),
             ]
-            with m.If(item.inner & (room_now != config.disparities - 1)):
-                m.d.sync += room.eq(room_now + 1)
-            with m.If(starts):
-                m.d.sync += [started.eq(1), on_first_row.eq(0)]
-            with m.If(item.sof):
-                m.d.sync += [y.eq(0), on_first_row.eq(0), on_inner_rows.eq(0)]
-            with m.If(item.eol):
-                m.d.sync += [width.eq(item.x), width_less_1.eq(item.x - 1)]
-                with m.If(row != support_y):
-                    m.d.sync += [
-                        y.eq(row + 1),
-                        on_first_row.eq(row == config.reach_rows - 1),
-                        on_inner_rows.eq(row == support_y - 1),
-                    ]
-
-        with m.If(self.i.valid & self.i.ready & ends):
-            rows = Signal(range(support_y + 2))
-            m.d.comb += rows.eq(row + item.eof)  # an end item comes after its last row was counted
-            m.d.sync += [
-                draining.eq(1),
-                started.eq(0),
-                y.eq(0),
-                on_first_row.eq(0),
-                on_inner_rows.eq(0),
-                drain_damaged.eq(item.damaged),
-            ]
-            with m.If(own):
-                # The row in progress ends inside the frame, unless nothing reaches to the right.
-                m.d.sync += rows_left.eq(config.reach_rows - (config.reach_right == 0))
-            with m.Else():
-                m.d.sync += [
-                    rows_left.eq(rows - 1),
-                    fresh.eq(1),
-                    out_left.eq(Mux(item.end, width, item.x)),
-                    out_last.eq(0),
-                    out_width.eq(Mux(item.end, width, item.x)),
-                ]
-
-        more = Signal()
-        m.d.comb += more.eq(Mux(busy, self.step != config.steps - 2, self.load & (config.steps > 1)))
-        m.d.sync += [
-            self.valid.eq(self.load | busy),
-            busy.eq(more),
-            held.eq(more | ~self.credit),
-            drain.eq(drains),
-        ]
-        with m.If(busy):
-            m.d.sync += self.step.eq(self.step + 1)
-        with m.Else():
-            m.d.sync += self.step.eq(0)
         m.d.comb += [
-            self.first.eq(self.step == 0),
-            self.last.eq(self.step == config.steps - 1),
-            self.emit.eq(drain | (self.valid & ~busy & emit)),
+            steps.load.eq(self.load),
+            steps.credit.eq(self.credit),
+            *[getattr(self, name).eq(getattr(steps, name)) for name in ("valid", "first", "last", "step")],
+            self.emit.eq(drained | (steps.last & emits)),
             self.tags.eq(tags),
         ]
         return m

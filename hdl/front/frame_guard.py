@@ -1,6 +1,6 @@
 """Turns whatever markers arrive into frames that are whole."""
 
-from amaranth.hdl import Module, Mux, Signal, Value, unsigned
+from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -111,7 +111,10 @@ class FrameGuard(wiring.Component):
         may_end = Signal()  # the line is wide enough to end there
         must_end = Signal()  # and cannot be any wider
         first_line = Signal()  # the frame's first line has begun, and no other
-        last_column = Signal.like(x, init=config.max_width - 1, reset_less=True)  # of the frame's lines
+        previous = Signal.like(x, reset_less=True)  # the column before it
+        second_last = Signal.like(x, init=config.max_width - 2, reset_less=True)  # of the frame's lines
+        support = config.reach_left + config.reach_right
+        completes, inner, first_inner = Signal(), Signal(), Signal()
 
         short, cut, line_ends, frame_ends = Signal(), Signal(), Signal(), Signal()
         end_waits = Signal(reset_less=True)  # the line that is filled bore its frame's end
@@ -122,22 +125,30 @@ class FrameGuard(wiring.Component):
             frame_ends.eq(Mux(fills, end_waits, pair.eof) | learner.is_last),
         ]
         with m.If(taken & ~ends):
-            following = x + 1
-            m.d.sync += x.eq(following)
+            m.d.sync += [
+                x.eq(x + 1),
+                previous.eq(x),
+                completes.eq(x == config.reach_right - 1),
+                first_inner.eq(x == support - 1),
+            ]
+            with m.If(x == support - 1):
+                m.d.sync += inner.eq(1)
             with m.If(first_line):
                 m.d.sync += [
-                    last_column.eq(x),
-                    must_end.eq(following == config.max_width - 1),
+                    second_last.eq(previous),
+                    must_end.eq(x == config.max_width - 2),
                 ]
-                with m.If(following == config.min_width - 1):
+                with m.If(x == config.min_width - 2):
                     m.d.sync += may_end.eq(1)
             with m.Else():
-                is_width = following == last_column
-                m.d.sync += [may_end.eq(is_width), must_end.eq(is_width)]
+                is_second_last = x == second_last
+                m.d.sync += [may_end.eq(is_second_last), must_end.eq(is_second_last)]
             with m.If(passes & starts):
                 m.d.sync += first_line.eq(1)
             with m.If(line_ends):
-                m.d.sync += [x.eq(0), may_end.eq(0), must_end.eq(0), first_line.eq(0)]
+                m.d.sync += [
+                    each.eq(0) for each in (x, may_end, must_end, first_line, completes, inner, first_inner)
+                ]
 
         damaged = Signal()  # this frame, by what came before
         found = Signal()  # another fault, in this clock
@@ -242,11 +253,8 @@ class FrameGuard(wiring.Component):
         with m.If(~frame.ongoing("PAD")):
             m.d.sync += end_waits.eq(pair.eof | (within_line & starts))
 
-        def reaches(place: int) -> Value:
-            """With this item, the line's first pixel is complete whose support ends at column ``place``."""
-            return (x == place) if place else (x == place) & passes & ~starts
-
-        support = config.reach_left + config.reach_right
+        # Where nothing reaches to the right, a line's first pixel completes itself, but not the frame's.
+        at_once = passes & ~starts & ~within_line
         m.d.comb += [
             item.left.eq(Mux(own, kept["left"], pair.left)),
             item.right.eq(Mux(own, kept["right"], pair.right)),
@@ -257,9 +265,9 @@ class FrameGuard(wiring.Component):
             item.end.eq(ends),
             item.damaged.eq(damaged | found | short | cut),
             item.first.eq(passes & ~within_line),
-            item.completes.eq(reaches(config.reach_right)),
-            item.first_inner.eq(reaches(support)),
-            item.inner.eq(x >= support if support else passes & ~starts),
+            item.completes.eq(completes if config.reach_right else at_once),
+            item.first_inner.eq(first_inner),
+            item.inner.eq(inner),
             learner.frame.eq(taken & passes & starts),
             learner.line.eq(taken & passes & ~within_line),
             learner.dropped.eq((frame.ongoing("OUTSIDE") | frame.ongoing("DROP")) & offers_rest & eol),

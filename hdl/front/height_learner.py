@@ -62,8 +62,10 @@ class HeightLearner(wiring.Component):
 
         seen = Signal.like(row)  # the last row of the newest whole frame
         streak = Signal(range(3))  # whole frames in a row that had it; more than two are two
+        is_same = Signal()  # known a clock later: a line that has ended began long ago
         agrees = Signal()
-        m.d.comb += agrees.eq((streak != 0) & (row == seen))
+        m.d.sync += is_same.eq(row == seen)
+        m.d.comb += agrees.eq((streak != 0) & is_same)
         was_whole = Signal()
         with m.If(whole):
             m.d.sync += [seen.eq(row), streak.eq(Mux(agrees, 2, 1)), was_whole.eq(1)]

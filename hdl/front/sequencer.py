@@ -1,7 +1,7 @@
 """Deals pixels out as steps, and says which result leaves with which."""
 
-from amaranth.hdl import Module, Mux, Signal
-from amaranth.lib import data, stream, wiring
+from amaranth.hdl import Module, Mux, Signal, Value
+from amaranth.lib import data, enum, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.frame_guard import item_layout
@@ -16,6 +16,19 @@ def tags_layout() -> data.StructLayout:
     return data.StructLayout({"code": 2, "sof": 1, "eol": 1, "eof": 1, "damaged": 1})
 
 
+class Leaving(enum.Enum, shape=2):
+    """Whose results leave: a bit for each state in which they do, as both are asked for in a hurry.
+
+    ``WAIT``: none, as the frame's first support is not complete. ``OWN``: one of the frame with each of its
+    pixels. ``DRAIN``: those that the frame before has left. The next frame may begin meanwhile, and waits
+    where results of its own would leave, or where it ends.
+    """
+
+    WAIT = 0b00
+    OWN = 0b01
+    DRAIN = 0b10
+
+
 class Sequencer(wiring.Component):
     """Takes items from the frame guard and issues ``steps`` steps a pixel, without a pause.
 
@@ -23,13 +36,6 @@ class Sequencer(wiring.Component):
     at (x + reach_right, y + reach_rows), where its support is complete. The last results of a
     frame have no such pixel. They are border results, need no data, and leave with the first
     pixels of the next frame, or by themselves in clocks without a pixel.
-
-    States
-    ------
-    WAIT : no result leaves, as the frame's first support is not complete.
-    OWN : a result of this frame leaves with each of its pixels.
-    DRAIN : the frame before has results left. The next frame may begin meanwhile, and waits where results
-        of its own would leave, or where it ends.
 
     Members
     -------
@@ -90,20 +96,23 @@ class Sequencer(wiring.Component):
 
         line_over = Signal()  # the result that leaves is its line's last
         frame_over = Signal()  # and its frame's
-        with m.FSM(name="results") as results:
-            with m.State("WAIT"):
-                m.d.comb += own.eq(starts)
+        state = Signal(Leaving)
+        running = Signal()  # results of this frame leave since the pixel before, at least
+        m.d.comb += [
+            running.eq(Value.cast(state)[0]),
+            draining.eq(Value.cast(state)[1]),
+            own.eq(running | (starts & ~draining)),
+        ]
+        with m.Switch(state):
+            with m.Case(Leaving.WAIT):
                 with m.If(taken & starts):
-                    m.next = "OWN"
+                    m.d.sync += state.eq(Leaving.OWN)
                 with m.If(taken & ends):
-                    m.next = "DRAIN"
-            with m.State("OWN"):
-                m.d.comb += own.eq(1)
-                with m.If(taken & ends):
-                    m.next = "DRAIN"
-            with m.State("DRAIN"), m.If(self.issued & frame_over):
-                m.next = "WAIT"
-            m.d.comb += draining.eq(results.ongoing("DRAIN"))
+                    m.d.sync += state.eq(Leaving.DRAIN)
+            with m.Case(Leaving.OWN), m.If(taken & ends):
+                m.d.sync += state.eq(Leaving.DRAIN)
+            with m.Case(Leaving.DRAIN), m.If(self.issued & frame_over):
+                m.d.sync += state.eq(Leaving.WAIT)
 
         # Where the results are that leave.
         width = Signal(range(config.max_width))  # of the frame that comes in: its last column
@@ -158,7 +167,7 @@ class Sequencer(wiring.Component):
 
         inner = Signal()
         tags = Signal(tags_layout(), reset_less=True)
-        m.d.comb += inner.eq(own & rows.inner & item.inner)
+        m.d.comb += inner.eq(running & rows.inner & item.inner)  # no frame's results start so late
         with m.If(self.issued):
             inner_code = Mux(room_now == config.disparities - 1, Validity.FULL, Validity.PARTIAL)
             m.d.sync += [

@@ -82,7 +82,7 @@ def test_what_leaves_is_what_the_table_says(name: str) -> None:
 MUTATIONS: dict[str, tuple[str, str, str]] = {
     "one frame teaches a height": (HEIGHT_LEARNER, "m.If(whole & agrees):", "m.If(whole):"),
     "two lower frames do": (HEIGHT_LEARNER, "whole & agrees & (streak == 2)", "whole & agrees"),
-    "heights need not agree": (HEIGHT_LEARNER, "(streak != 0) & (row == seen)", "(streak != 0)"),
+    "heights need not agree": (HEIGHT_LEARNER, "(streak != 0) & is_same", "(streak != 0)"),
     "broken frames are passed over": (HEIGHT_LEARNER, "m.d.sync += streak.eq(0)", "pass"),
     "a height is never forgotten": (HEIGHT_LEARNER, "overran & (overran_before | ~at_last)", "overran & 0"),
     "a multiple is forgiven each time": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "~at_last"),
@@ -125,16 +125,16 @@ MUTATIONS: dict[str, tuple[str, str, str]] = {
     "the end is lost in filling": (FRAME_GUARD, "Mux(fills, end_waits, pair.eof)", "pair.eof"),
     "a start inside a line does not end it": (FRAME_GUARD, "pair.eof | (within_line & starts)", "pair.eof"),
     "the next frame fills the line": (FRAME_GUARD, "~own & ~(within_line & starts)", "~own"),
-    "narrow frames stay narrow": (FRAME_GUARD, "config.min_width - 1", "config.min_width - 2"),
+    "narrow frames stay narrow": (FRAME_GUARD, "config.min_width - 2", "config.min_width - 3"),
     "the width is a column late": (
         FRAME_GUARD,
-        "is_width = following == last_column",
-        "is_width = x == last_column",
+        "second_last.eq(previous)",
+        "second_last.eq(x)",
     ),
     "the width outlives its frame": (
         FRAME_GUARD,
         "m.d.sync += first_line.eq(1)",
-        "m.d.sync += first_line.eq(last_column == config.max_width - 1)",
+        "m.d.sync += first_line.eq(second_last == config.max_width - 2)",
     ),
 }
 

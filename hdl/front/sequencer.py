@@ -135,12 +135,15 @@ class Sequencer(wiring.Component):
                 left.eq(Mux(begins, width_less_1, left - 1)),
                 none_left.eq((left == 1) & ~begins),
             ]
-            with m.If(begins):
-                m.d.sync += line_width.eq(width)
             with m.If(line_over):
                 m.d.sync += [left.eq(line_width), none_left.eq(0)]
             with m.If(draining & line_over):
                 m.d.sync += lines_left.eq(lines_left - 1)
+        # A clock later: a line is longer than that, and all lines of a frame are of one width.
+        begun = Signal()
+        m.d.sync += begun.eq(self.load & begins)
+        with m.If(begun):
+            m.d.sync += line_width.eq(width)
         with m.If(self.load & item.eol):
             m.d.sync += [width.eq(item.x), width_less_1.eq(item.x - 1)]
         with m.If(taken & ends):

@@ -15,13 +15,18 @@ from softdepth.spec.config import Config
 from softdepth.spec.registry import Registry
 
 CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's gateware")
-"""The component that computes each kind of criterion. All of a kind in a lane share one."""
+"""The component that computes each kind of criterion. All of a kind in a lane share one.
+
+It has the ports of `SadCriteria`. Its ``left`` and ``right`` are as many rows of the column as it likes to
+compare, down to the newest that its own support reaches; its ``o`` comes `latency` clocks later, for the
+pixel `Config.window_right` columns before the one that entered.
+"""
 
 CRITERIA.register("sad", SadCriteria)
 
 
 def column_layout(config: Config) -> data.ArrayLayout:
-    """The pixels of a column that lanes compare: the support without its stored rows, top first."""
+    """The pixels of a column that lanes get, top first: as many rows as any criterion compares."""
     return data.ArrayLayout(pixel_layout(config.pixel), config.column_rows)
 
 
@@ -64,12 +69,16 @@ class Lane(wiring.Component):
         values = Signal(criteria_layout(self._config.maxima))
         for kind, block in self._criteria.items():
             m.submodules[kind] = block
+            own = max(c.reach_rows for c in self._config.criteria if c.kind == kind)
+            below = self._config.reach_rows - own  # rows that only other criteria see
+            stop = self._config.column_rows - below
+            rows = range(stop - block.left.shape().length, stop)
             m.d.comb += [
                 block.valid.eq(self.valid),
                 block.coming.eq(self.coming),
                 block.place.eq(self.place),
-                block.left.eq(self.left),
-                block.right.eq(self.right),
+                *(block.left[k].eq(self.left[row]) for k, row in enumerate(rows)),
+                *(block.right[k].eq(self.right[row]) for k, row in enumerate(rows)),
             ]
             aligned = block.o
             for stage in range(self.criteria_latency - block.latency):

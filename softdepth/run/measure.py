@@ -121,7 +121,7 @@ def check_fits(
 
 def baseline(config: Config) -> Config:
     """Plain 3x3 SAD with the candidates, pixels, view and size limits of `config`."""
-    shared = {"disparities", "lanes", "pixel", "reference", "max_width", "max_height"}
+    shared = {"disparities", "min_disparity", "lanes", "pixel", "reference", "max_width", "max_height"}
     same = config.model_dump(mode="json", include=shared)
     return Config.preset("sad").override([f"{key}={value}" for key, value in same.items()])
 

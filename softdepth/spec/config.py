@@ -116,10 +116,11 @@ class Config(Settings):
                 "all windows are 1, but the core needs a support of more than one row: use a window of 3"
                 " or more in one criterion"
             )
-        if self.stored_rows > 2 * self.reach_rows:
+        most = 2 * max((c.reach_rows for c in self.criteria if c.stores), default=0)
+        if self.stored_rows > most:
             raise ValueError(
-                f"stored_rows is {self.stored_rows}, but a window of {self.min_height} rows has"
-                f" {2 * self.reach_rows} above its newest: use at most that many"
+                f"stored_rows is {self.stored_rows}, but a window of {most + 1} rows has"
+                f" {most} above its newest: use at most that many"
             )
         if self.multipliers > self.max_multipliers:
             raise ValueError(
@@ -242,8 +243,8 @@ class Config(Settings):
 
     @property
     def column_rows(self) -> int:
-        """Rows that lanes compare anew: the support's height without the `stored_rows`."""
-        return self.min_height - self.stored_rows
+        """Rows that lanes get of a column, the newest last: as far up as any criterion compares anew."""
+        return self.reach_rows + 1 + max(c.reach_rows - self.stored_rows * c.stores for c in self.criteria)
 
     @property
     def places(self) -> int:

@@ -34,10 +34,12 @@ class AnyCriterion(Frozen):
 
     ``whole_frame``: it says itself what lies outside the image, and has a value in every pixel. Those
     of the others have none whose support leaves the image; how far that extends around the reference
-    pixel is said by the reaches, in pixels, negative where it begins beyond it.
+    pixel is said by the reaches, in pixels, negative where it begins beyond it. ``stores``: it remembers
+    rows by itself, `Config.stored_rows` of them.
     """
 
     whole_frame: ClassVar[bool] = False
+    stores: ClassVar[bool] = False
     kind: str
     if TYPE_CHECKING:  # each has its own default, and puts it last
         label_bits: int
@@ -74,6 +76,7 @@ class Sad(AnyCriterion):
     compares the luma's horizontal gradient, held within +-`GRADIENT_CAP`, in place of the colours.
     """
 
+    stores: ClassVar[bool] = True
     kind: Literal["sad"] = "sad"  # pyright: ignore[reportIncompatibleVariableOverride]
     source: Literal["colour", "gradient"] = "colour"
     window: int = Field(default=3, ge=1, le=15)

@@ -12,6 +12,7 @@ from softdepth.golden.costs.fuzzy import operators
 from softdepth.golden.costs.fuzzy.fixed_operators import pair_operator
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.operators import REGISTRY
 
 Array = NDArray[np.float64]
 Reference = Literal["at once", "nested"]
@@ -58,7 +59,7 @@ def operator_error(config: Config, reference: Reference = "at once") -> Operator
             f"use at most {MAX_BITS}",
         )
     one = config.one
-    fixed, scale = pair_operator(config), one * (3 if config.operator == "mean" else 1)
+    fixed, scale = pair_operator(config), one * REGISTRY[config.operator].scale
     formula = _nested(config) if reference == "nested" else _at_once(config)
     levels = _levels(config)
     b, c = np.meshgrid(levels, levels, indexing="ij")

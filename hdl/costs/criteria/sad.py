@@ -31,7 +31,7 @@ class SadCriteria(wiring.Component):
     -------
     valid : the columns are a step of a pixel.
     coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
-    left, right : the columns to compare, `Config.column_rows` pixels from the top.
+    left, right : the columns to compare, from the top: the largest window without its stored rows.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
         `Config.window_right` columns before the one that entered.
     """
@@ -43,7 +43,7 @@ class SadCriteria(wiring.Component):
         self._column = ColumnSad(self._windows, config.pixel, config.stored_rows, config.places)
         self._boxes = {w: BoxSum(column_maximum(w, config.pixel), w, config.steps) for w in self._windows}
         self.latency = self._column.latency + max(box.latency for box in self._boxes.values())
-        column = data.ArrayLayout(pixel_layout(config.pixel), config.column_rows)
+        column = data.ArrayLayout(pixel_layout(config.pixel), self._windows[-1] - config.stored_rows)
         super().__init__(
             {
                 "valid": In(1),

@@ -8,8 +8,9 @@ from itertools import groupby
 from pathlib import Path
 
 from softdepth.ending import ended
-from softdepth.spec.config import OPERATORS, Config
+from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
+from softdepth.spec.operators import REGISTRY
 from softdepth.studies import markers
 from softdepth.studies.compare import tables
 from softdepth.studies.compare.comparison import LAST, Comparison
@@ -98,7 +99,7 @@ def exhaustive() -> str:
         + f" | RMS, {EXHAUSTIVE_BITS[-1]} bits | worst at a, b, c |",
         "|---|" + "---:|" * (len(EXHAUSTIVE_BITS) + 2),
     ]
-    for operator in OPERATORS:
+    for operator in REGISTRY:
         if operator != "soft_min_2":
             lines.append(row(f"`{operator}`", [f"operator={operator}"], "at once"))
             continue

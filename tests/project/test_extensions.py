@@ -1,0 +1,71 @@
+"""An operator and a criterion of one's own: two modules each, and nothing else is touched."""
+
+from itertools import chain
+
+import numpy as np
+import pytest
+
+from softdepth.golden import fixed_model, float_model
+from softdepth.hdl.core import StereoCore
+from softdepth.sim.transfers import pack_frame
+from softdepth.spec.config import Config
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.registry import VARIABLE
+from softdepth.studies.compare.document import exhaustive
+from tests.cli.conftest import softdepth
+from tests.hdl.test_core import check, images
+from tests.support.simulation import sad, stream_through
+
+__all__ = ["softdepth"]
+
+TOYS = ("any_golden", "any_hdl", "spot_golden", "spot_hdl")
+
+
+@pytest.fixture(autouse=True)
+def toys(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, ",".join(f"tests.support.toys.{name}" for name in TOYS))
+
+
+def core(**keys: object) -> Config:
+    criteria = [sad(3, 1, 11), {"kind": "spot"}, sad(5, 0, 12)]
+    sizes = {"disparities": 6, "lanes": 2, "max_width": 64}
+    return Config.from_dict({"criteria": criteria, "membership_bits": 7, **sizes, **keys})
+
+
+@pytest.mark.parametrize("stored", [0, 4])
+@pytest.mark.parametrize("operator", ["any", "mean"])
+def test_models_and_gateware(operator: str, stored: int) -> None:
+    c = core(operator=operator, stored_rows=stored)
+    pairs = [images(3, c.min_width + 8, c.min_height + 1, 2), images(4, c.min_width + 9, c.min_height, 1)]
+    payloads = list(chain.from_iterable(pack_frame(*pair).tolist() for pair in pairs))
+    expected = [fixed_model.disparity(*pair, c) for pair in pairs]
+    check(stream_through(StereoCore(c), payloads).payloads, expected)
+    assert len(np.unique(expected[0].disparity)) > 2
+    alike = float_model.disparity(*pairs[0], c, label=4096.0)
+    assert (alike.code == expected[0].code).all()
+
+
+def test_ranges_are_walked_and_never_left() -> None:
+    c = core(operator="any", membership_bits=4)
+    assert c.strength_range == (0, c.one)
+    steps = np.arange(2 * c.one + 1, dtype=np.int32)
+    inputs = [
+        v.ravel() << s.label_bits - 4 for v, s in zip(np.meshgrid(*[steps] * 3), c.criteria, strict=True)
+    ]
+    n, s = fixed_model.fraction(c, 0, inputs)
+    (n_low, n_high), (s_low, s_high) = c.cost_range
+    assert n_low <= n.min() <= n.max() <= n_high
+    assert 0 < s_low <= s.min() <= s.max() <= s_high
+
+
+def test_without_gateware_of_the_cell_it_is_refused() -> None:
+    with pytest.raises(ConfigError, match="no gateware of operator 'any' with firing = 'cell'"):
+        StereoCore(core(operator="any", firing="cell"))
+
+
+def test_export_info_and_documents(softdepth, tmp_path) -> None:
+    core(operator="any").save(tmp_path / "toy.toml")
+    outcome = softdepth("export", "--config", tmp_path / "toy.toml", "-o", tmp_path / "toy.v")
+    assert outcome.code == 0, outcome.err
+    assert "spot" in (tmp_path / "toy.v").read_text()
+    assert "| `any` | 0.00000 (0.00) |" in exhaustive()

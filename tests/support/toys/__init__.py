@@ -1,0 +1,1 @@
+"""An operator and a criterion of one's own, two modules each."""

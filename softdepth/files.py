@@ -4,7 +4,7 @@ import errno
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -122,6 +122,14 @@ def move_in(source: Path, target: Path) -> None:
     else:
         shutil.move(source, place)
     source.unlink(missing_ok=True)
+
+
+def refuse_to_replace(target: Path, names: Sequence[str], inputs: Iterable[Path]) -> None:
+    """Raise `InputError` where a file that is to be written into `target` is one that is read."""
+    read = {path.resolve(): path for path in inputs}
+    for name in names:
+        if path := read.get((target / name).resolve()):
+            raise InputError(f"the results would replace '{path}', which is read", "choose another with -o")
 
 
 @contextmanager

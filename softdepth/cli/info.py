@@ -4,33 +4,41 @@ import gc
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
 
 from softdepth import screen
-from softdepth.cli import options
+from softdepth.cli import metres, options
 from softdepth.cli.bundle import bundled
 from softdepth.spec.config import MULTIPLIER_BITS, Census, Config, Gradient
 from softdepth.spec.errors import InputError
+
+if TYPE_CHECKING:
+    from softdepth.rig.geometry import Geometry
+
+DEPTHS = (1, 2, 5, 10)
+"""Where the step of the depth is told, in metres."""
 
 
 @bundled
 def info(
     choice: options.Choice,
+    cameras: metres.Cameras,
     clock: Annotated[
         float, typer.Option("--clock", metavar="MHZ", help="Clock frequency that your device reaches.")
     ] = 100.0,
     width: Annotated[int, typer.Option("--width", metavar="N", help="Columns of a frame.")] = 640,
     height: Annotated[int, typer.Option("--height", metavar="N", help="Rows of a frame.")] = 480,
 ) -> None:
-    """Show widths, latency, memory and speed of a configuration."""
+    """Show widths, latency, memory and speed of a configuration; with cameras, its range in metres."""
     chosen = choice.configuration()
     _check(chosen, clock, width, height)
     table = Table("", "", box=None, show_header=False, title=f"{chosen.name} ({chosen.hash})")
     table.title_justify = "left"
-    for row in facts(chosen, clock, width, height).items():
+    depth = metric_facts(chosen, cameras.geometry(None)) if cameras.given else {}
+    for row in (facts(chosen, clock, width, height) | depth).items():
         table.add_row(*row)
     screen.console().print(table)
 
@@ -62,6 +70,23 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
+    }
+
+
+def metric_facts(config: Config, geometry: "Geometry") -> dict[str, str]:
+    """From where to where a configuration measures behind these cameras, and how finely."""
+    from softdepth.metric.reach import Reach
+
+    reach = Reach.of(geometry, config)
+    if reach.disparities is None:
+        return {"depth": f"none: no candidate is above -doffs = {-geometry.doffs:g} px"}
+    low, high = reach.disparities
+    steps = {at: reach.step(at) for at in DEPTHS}
+    return {
+        "depth": f"{reach.nearest:.3f} m ({high:g} px) to {reach.farthest:.3f} m ({low:g} px)",
+        "depth step": ", ".join(
+            f"{at} m: " + ("none" if step is None else f"{1000 * step:.1f} mm") for at, step in steps.items()
+        ),
     }
 
 

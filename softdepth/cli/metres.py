@@ -1,12 +1,13 @@
 """The options that turn disparities into metres, and the files that come of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
 from softdepth import screen
+from softdepth.cli import calibrations
 from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from softdepth.golden.maps import DisparityMap
     from softdepth.metric.scene import Choice, Scene
     from softdepth.rig.geometry import Geometry
+    from softdepth.rig.rectify import Rectifier
     from softdepth.spec.config import Config
 
 FILES = ("depth.png", "depth.tiff", "depth.pfm", "cloud.ply", "cloud.npz", "view.html")
@@ -40,7 +42,7 @@ class Kept:
 
 @dataclass(frozen=True)
 class Cameras:
-    """The geometry of a rectified pair, by numbers."""
+    """The geometry of a rectified pair, by numbers or by a calibration."""
 
     focal: Annotated[
         float | None, typer.Option("--focal", metavar="PX", help="Focal length of the rectified images, px.")
@@ -49,29 +51,114 @@ class Cameras:
         float | None, typer.Option("--baseline", metavar="M", help="Distance of the cameras, metres.")
     ] = None
     doffs: Annotated[
-        float, typer.Option("--doffs", metavar="PX", help="Right principal column less the left one, px.")
-    ] = 0.0
+        float | None,
+        typer.Option(
+            "--doffs", metavar="PX", help="Right principal column less the left one, px [default: 0]."
+        ),
+    ] = None
     principal: Annotated[
         tuple[float, float] | None,
         typer.Option("--principal", metavar="CX CY", help="Left principal point, px [default: the middle]."),
     ] = None
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--calibration",
+            metavar="FILE",
+            help="A calibration in place of the numbers (docs/rig.md); twice where it has two files.",
+        ),
+    ] = None
+    unit: calibrations.Unit = None
+    frame_id: Annotated[
+        str | None,
+        typer.Option("--frame-id", metavar="NAME", help="Name of the left camera's optical frame."),
+    ] = None
+
+    @property
+    def numbers(self) -> list[str]:
+        """The options that give a number of the geometry, as far as the user has given them."""
+        found = {
+            "--focal": self.focal,
+            "--baseline": self.baseline,
+            "--doffs": self.doffs,
+            "--principal": self.principal,
+        }
+        return [option for option, value in found.items() if value is not None]
 
     @property
     def given(self) -> bool:
         """Whether the user has said anything of the cameras."""
-        return self.focal is not None or self.baseline is not None
+        return bool(self.numbers or self.calibration or self.unit is not None or self.frame_id is not None)
 
-    def geometry(self, width: int, height: int) -> "Geometry":
-        """The geometry of images of this size; raises `InputError` where a number is missing or cannot be."""
+    def geometry(self, size: tuple[int, int] | None) -> "Geometry":
+        """The geometry of images of `size` (width, height); None is the size that was calibrated for.
+
+        Raises `InputError` where a number is missing or cannot be, and for options that contradict.
+        """
+        if self.calibration:
+            self.refuse_numbers("--calibration", self.calibration)
+            return self.named(calibrations.geometry(self.calibration, self.unit, size))
         from softdepth.rig.geometry import Geometry
 
+        if self.unit is not None:
+            raise InputError(f"--unit {self.unit:g} without a calibration", "give --calibration as well")
         if self.focal is None or self.baseline is None:
             missing = "--focal" if self.focal is None else "--baseline"
             raise InputError(
-                f"depth in metres needs {missing}", "give both --focal (pixels) and --baseline (metres)"
+                f"depth in metres needs {missing}",
+                "give both --focal (pixels) and --baseline (metres), or --calibration",
             )
+        width, height = size or (0, 0)
         cx, cy = self.principal or ((width - 1) / 2, (height - 1) / 2)
-        return Geometry(self.focal, self.baseline, self.doffs, cx, cy)
+        return self.named(Geometry(self.focal, self.baseline, self.doffs or 0.0, cx, cy))
+
+    def refuse_numbers(self, option: str, paths: list[Path]) -> None:
+        """Raise `InputError` for numbers beside a calibration, which was given by `option`."""
+        if self.numbers:
+            raise InputError(
+                f"{option} {paths[0]} and {self.numbers[0]} contradict each other",
+                "give the calibration or the numbers",
+            )
+
+    def named(self, geometry: "Geometry") -> "Geometry":
+        """A geometry in the frame that the user has named."""
+        if self.frame_id is None:
+            return geometry
+        if not self.frame_id or any(each.isspace() for each in self.frame_id):
+            raise InputError(f"--frame-id '{self.frame_id}' is no name", "give one without blanks")
+        return replace(geometry, frame_id=self.frame_id)
+
+
+class Prepared(NamedTuple):
+    """A pair as the core takes it: rectified, and what is known of its cameras."""
+
+    pair: "StereoPair"
+    geometry: "Geometry | None"
+    rectifier: "Rectifier | None" = None
+
+
+def prepare(pair: "StereoPair", cameras: Cameras, raw: calibrations.Raw) -> Prepared:
+    """Rectify a pair where the user asks for it, and find its geometry.
+
+    Raises `InputError` for options that contradict, and for a calibration that does not fit.
+    """
+    size = (pair.width, pair.height)
+    if not raw.rectify:
+        return Prepared(pair, cameras.geometry(size) if cameras.given else None)
+    cameras.refuse_numbers("--rectify", raw.rectify)
+    if cameras.calibration:
+        raise InputError(
+            f"--rectify {raw.rectify[0]} and --calibration {cameras.calibration[0]} contradict each other",
+            "give --rectify for raw images, --calibration for rectified ones",
+        )
+    from softdepth.rig.rectify import Rectifier
+
+    rectifier = Rectifier.of(calibrations.raw_rig(raw.rectify, cameras.unit), size)
+    geometry = cameras.named(rectifier.geometry)
+    left, right = rectifier.apply(pair.left, pair.right)
+    text = f"the pair is rectified by '{raw.rectify[0]}'"
+    screen.note(f"note: {text}")
+    return Prepared(replace(pair, left=left, right=right, notes=(*pair.notes, text)), geometry, rectifier)
 
 
 def scene_of(found: "DisparityMap", geometry: "Geometry", kept: Kept, pair: "StereoPair") -> "Scene":

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from softdepth import screen
-from softdepth.spec.errors import InputError
+from softdepth.cli import calibrations
 
 PIXEL = "rgb8"
 """The pixels that are written."""
@@ -23,29 +23,20 @@ def rectify(
             help="OpenCV, ROS camera_info, Kalibr; twice where each camera has a file, left first.",
         ),
     ],
-    unit: Annotated[
-        float,
-        typer.Option("--unit", metavar="METRES", help="What OpenCV's lengths are in: 0.001 for millimetres."),
-    ] = 1.0,
+    unit: calibrations.Unit = None,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the rectified pair.")
     ] = Path("out/rectified"),
 ) -> None:
     """Rectify a raw pair: its images, its new calibration, and a picture with epipolar lines."""
-    if not 0 < unit < float("inf"):
-        raise InputError(f"--unit {unit:g} is no length", "give metres, for example --unit 0.001")
-    from softdepth.files import result_folder
+    from softdepth.files import refuse_to_replace, result_folder
     from softdepth.golden.data.images import read_pair
     from softdepth.inspect.measurements import measure
     from softdepth.rig import output as results
-    from softdepth.rig.readers import any as readers
     from softdepth.rig.rectify import Rectifier
 
-    rig = readers.read(calibration, unit)
-    if rig.rectified:
-        raise InputError(
-            f"'{calibration[0]}' is the calibration of rectified images", "use the images as they are"
-        )
+    rig = calibrations.raw_rig(calibration, unit)
+    refuse_to_replace(output, results.FILES, (left, right, *calibration))
     pair = read_pair(left, right).as_format(PIXEL)
     for text in pair.notes:
         screen.note(f"note: {text}")

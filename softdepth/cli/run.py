@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from softdepth import ending, screen
-from softdepth.cli import inspect, metres, options, pairs
+from softdepth.cli import calibrations, inspect, metres, options, pairs
 from softdepth.cli.bundle import bundled
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -33,6 +33,7 @@ def run(
     source: pairs.Source,
     choice: options.Choice,
     cameras: metres.Cameras,
+    raw: calibrations.Raw,
     kept: metres.Kept,
     engine: Annotated[
         Literal["rtl", "fixed", "float"],
@@ -49,15 +50,20 @@ def run(
     from softdepth import files as results
     from softdepth.run import measure, report
 
+    raw.check(source.dataset, output)
     pair, chosen = source.read_for(choice)
-    geometry = cameras.geometry(pair.width, pair.height) if cameras.given else None
+    pair, geometry, rectifier = metres.prepare(pair, cameras, raw)
     inspect.note(pair, chosen)
-    with results.result_folder(output, stale=(*report.FILES, *metres.FILES)) as folder:
+    left = calibrations.stale(output, cameras.calibration or [])
+    stale = (*report.FILES, *metres.FILES, *left)
+    with results.result_folder(output, stale=stale) as folder:
         measurement = measure.measure(pair, chosen, engine, also=further)
         summary = report.summarise(pair, chosen, measurement)
         report.write(folder, pair, chosen, measurement, summary)
         if geometry is not None:
             metres.write(folder, measurement.result, geometry, kept, pair, chosen)
+        if rectifier is not None:
+            calibrations.write(folder, rectifier, pair)
     report.show(summary)
     print(f"results: {output}")
     fail_on_mismatch(pair, chosen, measurement)

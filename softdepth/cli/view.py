@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from softdepth import screen
-from softdepth.cli import metres, options, pairs
+from softdepth.cli import calibrations, metres, options, pairs
 from softdepth.cli.bundle import bundled
 
 
@@ -15,6 +15,7 @@ def view(
     source: pairs.Source,
     choice: options.Choice,
     cameras: metres.Cameras,
+    raw: calibrations.Raw,
     kept: metres.Kept,
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The page.")] = Path(
         "view.html"
@@ -26,8 +27,11 @@ def view(
     from softdepth.golden import fixed_model
     from softdepth.view.page import page
 
+    raw.check(source.dataset)
     pair, config = source.read_for(choice)
-    geometry = cameras.geometry(pair.width, pair.height)
+    pair, geometry, _ = metres.prepare(pair, cameras, raw)
+    if geometry is None:
+        geometry = cameras.geometry((pair.width, pair.height))  # says what is missing
     screen.note("fixed-point model ...")
     found = fixed_model.disparity(pair.left, pair.right, config)
     scene = metres.scene_of(found, geometry, kept, pair)

@@ -25,12 +25,15 @@ def write(folder: Path, rectifier: Rectifier, left: np.ndarray, right: np.ndarra
     )
 
 
-def calibration(rectifier: Rectifier, width: int, height: int) -> str:
+def calibration(rectifier: Rectifier, width: int, height: int, comment: str = "") -> str:
     """The rectified pair's calibration as OpenCV's YAML, lengths in metres: R1, R2, P1, P2 and Q.
 
     The rotations are unity: these are the rectified images' cameras, which nothing turns any more.
+    A comment stands before them.
     """
     storage = cv2.FileStorage(".yml", cv2.FILE_STORAGE_WRITE | cv2.FILE_STORAGE_MEMORY)
+    if comment:
+        storage.writeComment(comment)
     storage.write("image_width", width)
     storage.write("image_height", height)
     for key, rotation in (("R1", np.eye(3)), ("R2", np.eye(3))):

@@ -16,7 +16,7 @@ def tags_layout() -> data.StructLayout:
     return data.StructLayout({"code": 2, "sof": 1, "eol": 1, "eof": 1, "damaged": 1})
 
 
-class Leaving(enum.Enum, shape=2):
+class Leaving(enum.Enum, shape=2):  # type: ignore[call-arg]  # the shape is for amaranth.lib.enum
     """Whose results leave: a bit for each state in which they do, as both are asked for in a hurry.
 
     ``WAIT``: none, as the frame's first support is not complete. ``OWN``: one of the frame with each of its

@@ -1,7 +1,7 @@
 # Every task of the project; `make` lists them. All of it runs in .venv, made on first use.
 
 PYTHON ?= python3
-PRESET ?= paper
+PRESET ?=
 TESTS ?=
 BOARD ?= ulx3s-85f
 SEED ?= 1
@@ -24,7 +24,7 @@ help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 demo: $(READY) ## the Motorcycle pair through the gateware; pictures in out/motorcycle
-	@$(BIN)/softdepth run --dataset motorcycle --preset $(PRESET) $(CAMERAS) -o $(DEMO)
+	@$(BIN)/softdepth run --dataset motorcycle --preset $(or $(PRESET),robust) --also float,paper,sad $(CAMERAS) -o $(DEMO)
 	@echo "left, right and depth: $(CURDIR)/$(DEMO)/overview.png"
 	@echo "points to turn with the mouse: $(CURDIR)/$(DEMO)/view.html"
 
@@ -92,7 +92,7 @@ lock: $(LOCKED) ## pin every dependency anew (newer ones: make lock ARGS=--upgra
 
 export: $(READY) ## the core as Verilog in out/ (another preset: make export PRESET=lite)
 	@mkdir -p out
-	@$(BIN)/softdepth export --preset $(PRESET) -o out/softdepth_$(PRESET).v
+	@$(BIN)/softdepth export --preset $(or $(PRESET),paper) -o out/softdepth_$(or $(PRESET),paper).v
 
 # A core of your own: make bitstream BOARD=... ARGS="--preset lite --lanes 8".
 bitstream: $(READY) ## a board's bitstream in out/BOARD (another: make bitstream BOARD=icebreaker)

@@ -18,6 +18,6 @@ def sixteenths(found: Winners) -> NDArray[np.uint16]:
     whole = UNITS * found.left.astype(np.int32)
     slope = np.maximum(found.below, found.above) - found.at
     bent = (found.below < found.never) & (found.above < found.never) & (slope > 0)
-    difference, slope = (found.below - found.above)[bent], slope[bent]
+    difference, slope = found.below[bent] - found.above[bent], slope[bent]
     whole[bent] += ((UNITS * difference + slope) // (2 * slope)).astype(np.int32)
     return whole.astype(np.uint16)

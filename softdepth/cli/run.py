@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from softdepth.golden.data.pair import StereoPair
     from softdepth.run.measure import Engine, Measurement
 
-ADDED: "tuple[Engine, ...]" = ("fixed", "float", "sad")
+ADDED: "tuple[Engine, ...]" = ("fixed", "float", "paper", "sad")
 """What a result can be compared with."""
 
 Also = Annotated[

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from softdepth.golden.maps import DisparityMap
     from softdepth.sim.compare import Mismatch
 
-Engine = Literal["rtl", "fixed", "float", "sad", "board"]
-"""``board`` and ``rtl`` are the gateware, in an FPGA and simulated. ``sad`` is the baseline: plain 3x3 SAD
-with the same candidates and view, in fixed point."""
+Engine = Literal["rtl", "fixed", "float", "paper", "sad", "board"]
+"""``board`` and ``rtl`` are the gateware, in an FPGA and simulated. ``paper`` and ``sad`` are those presets
+with the same candidates and view, in fixed point: the paper's method, and plain 3x3 SAD as the baseline."""
 
 LIMITS = ("max_width", "max_height")
 """The keys that say how large images a core can take."""
@@ -29,6 +29,7 @@ NEEDED: dict[Engine, tuple[Engine, ...]] = {
     "rtl": ("rtl", "fixed"),
     "fixed": ("fixed",),
     "float": ("float",),
+    "paper": ("paper",),
     "sad": ("sad",),
 }
 """What a run of each engine computes: itself, and for gateware the model it has to agree with."""
@@ -41,6 +42,7 @@ _TITLES: dict[Engine, str] = {
     "rtl": "gateware, simulated by Verilator",
     "fixed": "fixed-point model",
     "float": "float model",
+    "paper": "preset paper",
     "sad": "plain SAD",
 }
 
@@ -119,11 +121,11 @@ def check_fits(
         )
 
 
-def baseline(config: Config) -> Config:
-    """Plain 3x3 SAD with the candidates, pixels, view and size limits of `config`."""
+def baseline(config: Config, preset: str = "sad") -> Config:
+    """A preset, plain 3x3 SAD at first, with the candidates, pixels, view and size limits of `config`."""
     shared = {"disparities", "min_disparity", "lanes", "pixel", "reference", "max_width", "max_height"}
     same = config.model_dump(mode="json", include=shared)
-    return Config.preset("sad").override([f"{key}={value}" for key, value in same.items()])
+    return Config.preset(preset).override([f"{key}={value}" for key, value in same.items()])
 
 
 def measure(
@@ -179,8 +181,8 @@ def _run_board(pair: "StereoPair", device: "Device", measurement: Measurement) -
 def _model(pair: "StereoPair", config: Config, engine: Engine, measurement: Measurement) -> None:
     from softdepth.golden import fixed_model, float_model
 
-    if engine == "sad":
-        config = baseline(config)
+    if engine in ("paper", "sad"):
+        config = baseline(config, engine)
     model = float_model if engine == "float" else fixed_model
     screen.note(f"{_TITLES[engine]} ...")
     start = time.perf_counter()

@@ -192,9 +192,18 @@ def _link(counters: dict[str, int]) -> str:
 
 
 def _table(report: Report) -> Table:
-    gateware: Engine = "board" if report.engine == "board" else "rtl"
-    engines: tuple[Engine, ...] = (gateware, "fixed", "float", "sad")
-    table = Table("", "board" if gateware == "board" else "gateware", "fixed", "float", "plain SAD", box=None)
+    gateware: tuple[Engine, str] = ("board", "board") if report.engine == "board" else ("rtl", "gateware")
+    titles: dict[Engine, str] = {
+        gateware[0]: gateware[1],
+        "fixed": "fixed",
+        "float": "float",
+        "paper": "preset paper",
+        "sad": "plain SAD",
+    }
+    engines: list[Engine] = [
+        engine for engine in titles if engine != "paper" or report.seconds["paper"] is not None
+    ]
+    table = Table("", *(titles[engine] for engine in engines), box=None)
     for column in table.columns[1:]:
         column.justify = "right"
     for label, key, unit in (

@@ -23,7 +23,8 @@ PICTURE = Path("docs/images/motorcycle.png")
 _TITLES: dict[Engine, str] = {
     "rtl": "gateware (simulated)",
     "fixed": "fixed-point model",
-    "float": "float model of the paper",
+    "float": "float model",
+    "paper": "preset paper, fixed-point model",
     "sad": "plain SAD 3x3",
 }
 
@@ -35,6 +36,8 @@ def figures(report: Report) -> str:
     rows = []
     for engine, title in _TITLES.items():
         a = report.metrics[engine]
+        if a.bad1 is None:
+            continue
         rows.append(
             f"| {title} | {a.bad1:.2f} % | {a.bad2:.2f} % | {a.mae:.2f} px | {a.rmse:.2f} px"
             f" | {a.paper_rmse:.2f} |"

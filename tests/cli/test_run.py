@@ -149,6 +149,7 @@ def test_truth_scale(softdepth, files, tmp_path):
         ("fixed", ("--also", "float,sad"), {"fixed", "float", "sad"}),
         ("fixed", ("--also", "sad, fixed"), {"fixed", "sad"}),
         ("float", ("--also", "fixed"), {"float", "fixed"}),
+        ("fixed", ("--also", "paper"), {"fixed", "paper"}),
     ],
 )
 def test_what_is_asked_for_is_computed_and_nothing_else(softdepth, files, tmp_path, engine, also, computed):

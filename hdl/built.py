@@ -1,16 +1,21 @@
 """Which configurations there is gateware for."""
 
-from softdepth.spec.config import Census, Config
+from softdepth.hdl.costs.lane import CRITERIA
+from softdepth.spec.config import Census, Config, Gradient, Sad
 from softdepth.spec.errors import ConfigError
 
 
 def missing(config: Config) -> tuple[str, ...]:
     """What of a configuration has a model but no gateware, as its keys."""
-    return _missing_of_whole(config) if config.whole_frame else _missing_of_sads(config)
+    return _missing_of_whole(config) if config.whole_frame else _missing_with_band(config)
 
 
 def _missing_of_whole(config: Config) -> tuple[str, ...]:
-    gaps = []
+    gaps = [
+        _of_kind(i, criterion.kind)
+        for i, criterion in enumerate(config.criteria)
+        if not isinstance(criterion, Census | Gradient)
+    ]
     if config.cost == "fuzzy":
         gaps.append("cost = 'fuzzy' of criteria without a border band")
     if sum(isinstance(criterion, Census) for criterion in config.criteria) > 1:
@@ -20,22 +25,24 @@ def _missing_of_whole(config: Config) -> tuple[str, ...]:
     return tuple(gaps)
 
 
-def _missing_of_sads(config: Config) -> tuple[str, ...]:
-    gaps = [
-        f"criteria.{i} of kind '{criterion.kind}' beside one of kind 'sad'"
-        for i, criterion in enumerate(config.criteria)
-        if criterion.whole_frame
-    ]
-    gaps += [
-        f"criteria.{i}.source = 'gradient'"
-        for i, criterion in enumerate(config.sads)
-        if criterion.source == "gradient"
-    ]
+def _missing_with_band(config: Config) -> tuple[str, ...]:
+    gaps = []
+    for i, criterion in enumerate(config.criteria):
+        if criterion.whole_frame:
+            gaps.append(f"{_of_kind(i, criterion.kind)} beside one with a border band")
+        elif criterion.kind not in CRITERIA:
+            gaps.append(_of_kind(i, criterion.kind))
+        elif isinstance(criterion, Sad) and criterion.source == "gradient":
+            gaps.append(f"criteria.{i}.source = 'gradient'")
     if config.cost == "sum" and len(config.criteria) > 1:
         gaps.append(f"a sum of {len(config.criteria)} criteria")
     if config.post.any:
-        gaps.append("post behind criteria of kind 'sad'")
+        gaps.append("post behind criteria with a border band")
     return tuple(gaps)
+
+
+def _of_kind(i: int, kind: str) -> str:
+    return f"criteria.{i} of kind '{kind}'"
 
 
 def check_built(config: Config) -> None:

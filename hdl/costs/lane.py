@@ -46,8 +46,8 @@ class Lane(wiring.Component):
         self._config = config
         self._cost = COSTS[config.cost](config)
         self._criteria = {
-            kind: CRITERIA[kind](config, [c for c in config.sads if c.kind == kind])
-            for kind in sorted({c.kind for c in config.sads})
+            kind: CRITERIA[kind](config, [c for c in config.criteria if c.kind == kind])
+            for kind in sorted({c.kind for c in config.criteria})
         }
         self.criteria_latency = max(block.latency for block in self._criteria.values())
         self.latency = self.criteria_latency + self._cost.latency

@@ -1,12 +1,16 @@
 """An operator and a criterion of one's own: two modules each, and nothing else is touched."""
 
 from itertools import chain
+from typing import Any
 
 import numpy as np
 import pytest
 
 from softdepth.golden import fixed_model, float_model
+from softdepth.hdl.built import check_built, missing
 from softdepth.hdl.core import StereoCore
+from softdepth.hdl.costs import lane
+from softdepth.hdl.costs.criteria.sad import SadCriteria
 from softdepth.sim.transfers import pack_frame
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
@@ -29,20 +33,38 @@ def toys(monkeypatch: pytest.MonkeyPatch) -> None:
 def core(**keys: object) -> Config:
     criteria = [sad(3, 1, 11), {"kind": "spot"}, sad(5, 0, 12)]
     sizes = {"disparities": 6, "lanes": 2, "max_width": 64}
-    return Config.from_dict({"criteria": criteria, "membership_bits": 7, **sizes, **keys})
+    return Config.from_dict({"criteria": criteria, "membership_bits": 8, **sizes, **keys})
 
 
-@pytest.mark.parametrize("stored", [0, 4])
-@pytest.mark.parametrize("operator", ["any", "mean"])
-def test_models_and_gateware(operator: str, stored: int) -> None:
-    c = core(operator=operator, stored_rows=stored)
-    pairs = [images(3, c.min_width + 8, c.min_height + 1, 2), images(4, c.min_width + 9, c.min_height, 1)]
+FIRST = [{"kind": "spot"}, sad(3, 1, 11), sad(5, 0, 12)]
+TWICE = [{"kind": "spot"}, sad(5, 0, 12), {"kind": "spot", "label_bits": 9}]
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"operator": "any"},
+        {"operator": "any", "stored_rows": 4},
+        {"operator": "soft_min_1"},
+        {"operator": "mean", "criteria": FIRST},
+        {"operator": "mean", "stored_rows": 4, "criteria": TWICE},
+    ],
+    ids=str,
+)
+def test_models_and_gateware(keys: dict[str, Any]) -> None:
+    c = core(**keys)
+    # Shifted beyond all candidates: none is right, and every criterion has its say.
+    pairs = [images(3, c.min_width + 20, c.min_height + 3, 9), images(4, c.min_width + 9, c.min_height, 1)]
     payloads = list(chain.from_iterable(pack_frame(*pair).tolist() for pair in pairs))
     expected = [fixed_model.disparity(*pair, c) for pair in pairs]
     check(stream_through(StereoCore(c), payloads).payloads, expected)
     assert len(np.unique(expected[0].disparity)) > 2
     alike = float_model.disparity(*pairs[0], c, label=4096.0)
     assert (alike.code == expected[0].code).all()
+    for i, criterion in enumerate(c.criteria):
+        if criterion.kind == "spot":  # a core without it, as by a label too high for it, would not pass
+            deaf = fixed_model.disparity(*pairs[0], c.override([f"criteria.{i}.label_bits=20"]))
+            assert (deaf.disparity != expected[0].disparity).sum() > 3
 
 
 def test_ranges_are_walked_and_never_left() -> None:
@@ -63,9 +85,24 @@ def test_without_gateware_of_the_cell_it_is_refused() -> None:
         StereoCore(core(operator="any", firing="cell"))
 
 
+def test_a_kind_without_gateware_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "spot" in lane.CRITERIA
+    monkeypatch.setattr(lane.CRITERIA, "_items", {"sad": SadCriteria})
+    with pytest.raises(ConfigError, match=r"'custom' has no gateware: criteria\.1 of kind 'spot';"):
+        check_built(core())
+
+
+def test_a_kind_without_a_band_has_a_model_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    spot = type(core().criteria[1])
+    monkeypatch.setattr(spot, "whole_frame", True)
+    assert missing(core()) == ("criteria.1 of kind 'spot' beside one with a border band",)
+    alone = {"cost": "sum", "criteria": [{"kind": "census"}, {"kind": "spot"}]}
+    assert missing(core(**alone)) == ("criteria.1 of kind 'spot'",)
+
+
 def test_export_info_and_documents(softdepth, tmp_path) -> None:
     core(operator="any").save(tmp_path / "toy.toml")
     outcome = softdepth("export", "--config", tmp_path / "toy.toml", "-o", tmp_path / "toy.v")
     assert outcome.code == 0, outcome.err
-    assert "spot" in (tmp_path / "toy.v").read_text()
+    assert "lane_1_spot" in (tmp_path / "toy.v").read_text()
     assert "| `any` | 0.00000 (0.00) |" in exhaustive()

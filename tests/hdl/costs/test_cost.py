@@ -96,6 +96,34 @@ def test_a_denominator_of_zero_or_below_gives_one_over_zero() -> None:
     assert min(den for _, den in got if den) == 1
 
 
+SMALL = [
+    *({"operator": name} for name in ("min", "prod", "mean", "soft_min_1", "soft_min_2")),
+    *({"operator": name, "firing": "cell"} for name in ("mean", "soft_min_1", "soft_min_2")),
+    {"operator": "mean", "firing": "cell", "rules": "corrected"},
+]
+
+
+@pytest.mark.parametrize("bits", [2, 3])
+@pytest.mark.parametrize("keys", SMALL, ids=str)
+def test_criteria_that_never_reach_their_labels(keys: dict[str, Any], bits: int) -> None:
+    """Whose maximum, 765, lies below T, or between T and 2T: all combinations of their inputs."""
+    criteria = [sad(1, label_bits=10), sad(3, label_bits=bits + 9), sad(1, label_bits=9)]
+    c = config(criteria=criteria, membership_bits=bits, disparities=2, lanes=1, **keys)
+    assert [most >> s.label_bits for most, s in zip(c.maxima, c.criteria, strict=True)] == [
+        0,
+        3 >> bits - 2,
+        1,
+    ]
+    steps = [
+        sorted({*range(0, min(most, 2 << s.label_bits) + 1, 1 << s.label_bits - bits), most})
+        for most, s in zip(c.maxima, c.criteria, strict=True)
+    ]
+    sets: list[Set] = [(list(values), False) for values in product(*steps)]
+    got = costs(c, sets)
+    assert got == [fraction(values, near, c) for values, near in sets]
+    assert got == model(c, sets)
+
+
 def test_sad_cost_is_the_criterion_itself() -> None:
     c = config(cost="sum", criteria=[sad(5)])
     values = [0, 1, 4096, c.maxima[0]]

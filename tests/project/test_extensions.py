@@ -104,5 +104,5 @@ def test_export_info_and_documents(softdepth, tmp_path) -> None:
     core(operator="any").save(tmp_path / "toy.toml")
     outcome = softdepth("export", "--config", tmp_path / "toy.toml", "-o", tmp_path / "toy.v")
     assert outcome.code == 0, outcome.err
-    assert "lane_1_spot" in (tmp_path / "toy.v").read_text()
+    assert "_lane_0_spot(" in (tmp_path / "toy.v").read_text()
     assert "| `any` | 0.00000 (0.00) |" in exhaustive()

@@ -57,12 +57,15 @@ def _selection(text: str, seed: int) -> tuple["Selection", int]:
     """What a row names, and its seed: that of all unless it has its own."""
     from pydantic import ValidationError
 
+    from softdepth.spec.config import OPERATORS
     from softdepth.studies.utilization import Selection
 
     names = ("preset", "operator", "lanes")
     what, at, own = text.partition("@")
     try:
         selection = Selection.model_validate(dict(zip(names, what.split("/"), strict=True)))
+        if selection.operator not in OPERATORS:
+            raise ValueError(f"'{selection.operator}' is no operator")
         if at and not own.isdecimal():
             raise ValueError(f"'{own}' is no seed")
     except (ValueError, ValidationError) as error:

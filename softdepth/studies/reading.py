@@ -35,8 +35,9 @@ class Reading:
 
 
 def built_presets() -> list[str]:
-    """Presets that have gateware, and so can be exported."""
-    return [name for name in PRESETS if not missing(Config.preset(name))]
+    """Presets that have gateware and can be exported."""
+    configs = {name: Config.preset(name) for name in PRESETS}
+    return [name for name, config in configs.items() if not missing(config) and not config.whole_frame]
 
 
 def read(verilog: str, commands: str) -> Reading:

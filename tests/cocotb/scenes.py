@@ -51,7 +51,7 @@ def frames_for(config: Config, seed: int) -> list[Pair]:
     """Frames of every awkward size: smallest, odd, one over a power of two, equal neighbours, too low."""
     w, h = config.min_width, config.min_height
     power = 1 << (w + config.disparities // 2).bit_length()
-    return [
+    colour = [
         textured(h, w, seed),
         textured(h + 4, power + 1, seed + 1),
         noise(h + 4, power + 1, seed + 2),
@@ -62,6 +62,9 @@ def frames_for(config: Config, seed: int) -> list[Pair]:
         noise(h + 10, min(config.max_width, power + config.disparities), seed + 4),
         noise(h + 3, min(config.max_width, 2 * power), seed + 5),
     ]
+    if config.pixel.channels == 3:
+        return colour
+    return [(left[..., 1].copy(), right[..., 1].copy()) for left, right in colour]
 
 
 def random_config(seed: int) -> Config:

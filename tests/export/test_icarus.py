@@ -31,7 +31,7 @@ def check(seen: Seen, pairs: list[Pair], config: Config) -> None:
     assert not seen.complaints
     frames = split_frames(unpack_results(np.array(seen.payloads, np.uint64), config))
     assert len(frames) == len(pairs)
-    for found, pair in zip(to_maps(frames), pairs, strict=True):
+    for found, pair in zip(to_maps(frames, config), pairs, strict=True):
         expected = disparity(*pair, config)
         assert np.array_equal(found.disparity, expected.disparity)
         assert np.array_equal(found.code, expected.code)

@@ -1,5 +1,7 @@
 """An operator and a criterion of one's own: two modules each, and nothing else is touched."""
 
+import sys
+from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
@@ -7,14 +9,19 @@ import numpy as np
 import pytest
 
 from softdepth.golden import fixed_model, float_model
+from softdepth.golden.costs.criteria import EVALUATE
+from softdepth.golden.costs.fuzzy.fixed_operators import FIXED
+from softdepth.golden.costs.fuzzy.operators import FLOAT
 from softdepth.hdl.built import check_built, missing
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.costs import lane
 from softdepth.hdl.costs.criteria.sad import SadCriteria
+from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS, OPERATORS
 from softdepth.sim.transfers import pack_frame
+from softdepth.spec import criteria, operators
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
-from softdepth.spec.registry import VARIABLE
+from softdepth.spec.registry import VARIABLE, Registry
 from softdepth.studies.compare.document import exhaustive
 from tests.cli.conftest import softdepth
 from tests.hdl.test_core import check, images
@@ -22,12 +29,29 @@ from tests.support.simulation import sad, stream_through
 
 __all__ = ["softdepth"]
 
+REGISTRIES: tuple[Registry[Any], ...] = (
+    criteria.CRITERIA,
+    operators.REGISTRY,
+    EVALUATE,
+    FIXED,
+    FLOAT,
+    OPERATORS,
+    CELL_OPERATORS,
+    lane.CRITERIA,
+)
 TOYS = ("any_golden", "any_hdl", "spot_golden", "spot_hdl")
 
 
 @pytest.fixture(autouse=True)
-def toys(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(VARIABLE, ",".join(f"tests.support.toys.{name}" for name in TOYS))
+def toys(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The toys are known within a test, and unknown to all others of this process."""
+    for registry in REGISTRIES:
+        monkeypatch.setattr(registry, "_items", dict(registry._items))
+    names = [f"tests.support.toys.{name}" for name in TOYS]
+    monkeypatch.setenv(VARIABLE, ",".join(names))
+    yield
+    for name in names:
+        sys.modules.pop(name, None)
 
 
 def core(**keys: object) -> Config:

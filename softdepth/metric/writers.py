@@ -5,6 +5,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 from plyfile import PlyData, PlyElement
 
 from softdepth.files import write_atomically
@@ -17,19 +18,24 @@ MILLIMETRES = np.iinfo(np.uint16).max
 """The farthest depth that a 16-bit PNG in millimetres holds: 65.535 m."""
 
 
-def write_depth_png(path: str | Path, depth: Floats) -> int:
-    """Write depth as 16-bit PNG in millimetres, 0 for none, as ROS and most depth cameras do.
+def millimetres(depth: Floats) -> tuple[NDArray[np.uint16], int]:
+    """Depth in whole millimetres, 0 for none, and how many lie beyond `MILLIMETRES`: these are 0 as well.
 
-    Depths beyond 65.535 m do not fit: they become 0 as well, and their number is returned. A depth above 0
-    is at least 1 mm.
+    A depth above 0 is at least 1 mm.
     """
     known = np.isfinite(depth)
-    millimetres = np.zeros(depth.shape)
-    millimetres[known] = np.maximum(np.rint(depth[known].astype(np.float64) * 1000), 1)
-    beyond = millimetres > MILLIMETRES
-    millimetres[beyond] = 0
-    write_atomically(path, _encoded(".png", millimetres.astype(np.uint16)))
-    return int(beyond.sum())
+    found = np.zeros(depth.shape)
+    found[known] = np.maximum(np.rint(depth[known].astype(np.float64) * 1000), 1)
+    beyond = found > MILLIMETRES
+    found[beyond] = 0
+    return found.astype(np.uint16), int(beyond.sum())
+
+
+def write_depth_png(path: str | Path, depth: Floats) -> int:
+    """Write depth as 16-bit PNG in `millimetres`, as most depth cameras do; returns how many lie beyond."""
+    found, beyond = millimetres(depth)
+    write_atomically(path, _encoded(".png", found))
+    return beyond
 
 
 def write_depth_tiff(path: str | Path, depth: Floats) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.metric.scene import Scene
-from softdepth.metric.writers import MILLIMETRES
+from softdepth.metric.writers import millimetres
 from softdepth.rig.geometry import Geometry
 from softdepth.ros.bag import TYPES
 
@@ -74,11 +74,7 @@ def disparity_image(
 
 def depth_millimetres(header: Any, scene: Scene) -> Any:
     """Depth as `16UC1` in millimetres, 0 for none or for more than 65.535 m (REP 118)."""
-    known = np.isfinite(scene.depth)
-    depth = np.zeros(scene.depth.shape)
-    depth[known] = np.maximum(np.rint(scene.depth[known].astype(np.float64) * 1000), 1)
-    depth[depth > MILLIMETRES] = 0
-    return image(header, "16UC1", depth.astype(np.uint16))
+    return image(header, "16UC1", millimetres(scene.depth)[0])
 
 
 def depth_metres(header: Any, scene: Scene) -> Any:

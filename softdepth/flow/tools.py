@@ -147,5 +147,5 @@ def _own_version(path: str) -> tuple[str, tuple[int, ...]]:
     except (OSError, subprocess.TimeoutExpired):
         return "", ()
     text = (done.stdout or done.stderr).partition("\n")[0].strip() if done.returncode == 0 else ""
-    numbers = re.search(r"(?:Yosys |nextpnr-)(\d+)\.(\d+)", text)
+    numbers = re.search(r"(?:Yosys |nextpnr-|\(Version )(\d+)\.(\d+)", text)
     return text, tuple(map(int, numbers.groups())) if numbers else ()

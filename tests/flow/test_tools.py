@@ -48,9 +48,11 @@ def test_an_activated_environment_changes_nothing(path, monkeypatch):
     assert quiet.version.startswith("apycula ")
 
 
-def test_nextpnr_tells_its_version_on_standard_error(path):
+@pytest.mark.parametrize("named", ["nextpnr-0.9", "0.11.1+dfsg-5+b1"], ids=["built", "packaged"])
+def test_nextpnr_tells_its_version_on_standard_error(path, named):
+    """Built from its repository it names itself again; as a distribution packages it, it does not."""
     own = path(
-        "nextpnr-ecp5", "echo '\"nextpnr-ecp5\" -- Next Generation Place and Route (Version nextpnr-0.9)' >&2"
+        "nextpnr-ecp5", f"echo '\"nextpnr-ecp5\" -- Next Generation Place and Route (Version {named})' >&2"
     )
     assert find_tool("nextpnr-ecp5").command == (str(own),)
 

@@ -8,6 +8,7 @@ from softdepth.files import write_atomically
 from softdepth.flow.families import FAMILIES
 from softdepth.flow.tools import find_tool
 from softdepth.studies.utilization import AIM_MHZ, PART, Measurement, Row, Selection
+from softdepth.templates import render
 
 JSON = "utilization.json"
 
@@ -75,59 +76,20 @@ def modes(row: Row) -> list[str]:
 def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
     """The figures as a Markdown page."""
     detailed = next((m for m in measurements if _name(m.row) == DETAILED), measurements[0])
-    wrappers = sorted({(m.wrapper_lut4, m.wrapper_ff) for m in measurements})
-    lines = [
-        "# Area and speed",
-        "",
-        "Written by `make utilization`; the same figures for programs are in"
-        " [utilization.json](utilization.json). One row again:"
-        " `.venv/bin/softdepth utilization --row paper/mean/8`.",
-        "",
-        f"{PART.device}, {PART.package}, speed grade {PART.speed}: synthesised, placed and routed;"
-        f" {', '.join(f'{name}: {text}' for name, text in tools.items())}; aiming at"
-        f" {AIM_MHZ:g} MHz. Figures are nextpnr's own. LUT4 counts a carry cell as two and"
-        " distributed RAM as what it takes; DSP are multipliers of 18x18 bits, EBR block RAMs of 18 kbit."
-        " The core stands between shift registers, which are in the figures:"
-        + ", or".join(f" {lut4} LUT4 and {ff} flip-flops" for lut4, ff in wrappers)
-        + ".",
-        "",
-        "| preset | operator | disparities | lanes | width | LUT4 | FF | EBR | DSP | fmax, MHz | clocks/pixel"
-        " | Mpixel/s | MDE/s | MDE/s per kLUT | LUT4 per lane | seed |",
-        "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        *(f"{_table_row(found.row)} {found.seed} |" for found in measurements),
-        "",
-        "MDE/s: million disparity evaluations a second. LUT4 per lane: all of the core, divided by the lanes."
-        " The preset sad has no fuzzy stage, so that its operator changes nothing.",
-        "",
-        "## Video",
-        "",
-        "A core keeps up with a video mode when it takes as many pixels a second as are visible in it: "
-        + ", ".join(f"{name} {rate}" for name, rate in VIDEO_MODES.items())
-        + " Mpixel/s. 1080p needs `max_width = 1920`, with more block RAM.",
-        "",
-        "| configuration | Mpixel/s | keeps up with |",
-        "|---|---:|---|",
-        *(
-            f"| {_name(m.row)} | {m.row.mpixel_s:.1f} | {', '.join(modes(m.row)) or '-'} |"
-            for m in measurements
-        ),
-        "",
-        "## What limits the clock",
-        "",
-        "| configuration | slowest path |",
-        "|---|---|",
-        *(f"| {_name(m.row)} | {_code(m.critical_path)} |" for m in measurements),
-        "",
-        f"## Blocks of {_name(detailed.row)}",
-        "",
-        "Cells by the block whose net they drive. `lane` and other repeated blocks stand for all of their"
-        " kind together, a block for what is in none of those below it, `top` for the shift registers.",
-        "",
-        "| block | LUT4 | FF | EBR | DSP |",
-        "|---|---:|---:|---:|---:|",
-        *(f"| `{b.name}` | {b.lut4} | {b.ff} | {b.ebr} | {b.dsp} |" for b in detailed.blocks),
-    ]
-    return "\n".join(lines) + "\n"
+    text = render(
+        "softdepth.studies",
+        "utilization.md",
+        part=PART,
+        aim_mhz=AIM_MHZ,
+        tools=tools,
+        wrappers=sorted({(m.wrapper_lut4, m.wrapper_ff) for m in measurements}),
+        measurements=measurements,
+        video_modes=VIDEO_MODES,
+        modes=modes,
+        name=_name,
+        detailed=detailed,
+    )
+    return text + "\n"
 
 
 def _identity(row: Row) -> tuple[str, int, int]:
@@ -136,15 +98,3 @@ def _identity(row: Row) -> tuple[str, int, int]:
 
 def _name(row: Row) -> str:
     return f"{row.preset}/{row.operator}/{row.lanes}"
-
-
-def _code(path: str) -> str:
-    return path.replace("|", "\\|")
-
-
-def _table_row(row: Row) -> str:
-    return (
-        f"| {row.preset} | {row.operator} | {row.disparities} | {row.lanes} | {row.width} | {row.lut4:,}"
-        f" | {row.ff:,} | {row.ebr} | {row.dsp} | {row.fmax_mhz:.1f} | {row.cycles_per_pixel}"
-        f" | {row.mpixel_s:.1f} | {row.mde_s:,.0f} | {row.mde_s_per_klut:.0f} | {row.lut4_per_lane:.0f} |"
-    )

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import cv2
-import jinja2
 import matplotlib
 import numpy as np
 import plotly.graph_objects as go
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from softdepth.metric.scene import Scene
+from softdepth.templates import render
 
 MAX_POINTS = 100_000
 """Points that a browser without a graphics card still turns smoothly; more are thinned out."""
@@ -61,13 +61,10 @@ def page(
         gray = np.repeat(confidence[..., None], 3, axis=2)
         panels.append(Panel("Confidence", _png(gray), "white: sure; black: filled in, or none"))
     points, palette, _ = scene.points()
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("softdepth.view", "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-    )
     shown = min(len(points), MAX_POINTS)
-    return environment.get_template("view.html").render(
+    return render(
+        "softdepth.view",
+        "view.html",
         title=title,
         facts=facts,
         panels=panels,

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.imports import ROOTS, graph, imported_names, modules, room
 
-BASE = {"caches", "ending", "files", "screen", "sources", "softdepth"}
+BASE = {"caches", "ending", "files", "screen", "sources", "templates", "softdepth"}
 """Modules of the package itself, and its name: what every program needs."""
 
 PERMITTED: dict[str, set[str]] = {
@@ -23,7 +23,7 @@ PERMITTED: dict[str, set[str]] = {
     "metric": {"rig", "golden", "spec", "files"},
     "ros": {"metric", "rig", "spec"},
     "inspect": {"golden", "spec"},
-    "view": {"metric", "rig", "golden", "spec", "files"},
+    "view": {"metric", "rig", "golden", "spec", "files", "templates"},
     "board": {"golden", "spec"},
     "run": {"board", "golden", "sim", "spec", *BASE},
     "studies": {"export", "inspect", "run", "sim", "flow", "golden", "hdl", "spec", *BASE},
@@ -32,6 +32,7 @@ PERMITTED: dict[str, set[str]] = {
     "files": {"spec"},
     "screen": set(),
     "sources": {"spec"},
+    "templates": set(),
 }
 """What each room may import besides itself. The command line (``cli``) may import all."""
 

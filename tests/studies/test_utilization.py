@@ -264,3 +264,9 @@ def test_a_later_row_that_is_wrong_stops_before_the_first_is_built(refused, runs
 def test_a_folder_that_is_not_there(refused, runs, tmp_path):
     assert "does not exist" in refused("utilization", "--quick", "-o", tmp_path / "none")
     assert runs == []
+
+
+def test_the_page_in_the_documents_is_what_its_figures_give(project):
+    figures = json.loads((project / "docs" / "utilization.json").read_text())
+    page = utilization_page.page(utilization_page.load(project / "docs"), figures["tools"])
+    assert page == (project / "docs" / "utilization.md").read_text()

@@ -1,0 +1,31 @@
+"""Pages in Markdown and HTML, rendered from the template files that lie beside the module that fills them."""
+
+from functools import cache
+from typing import Any
+
+import jinja2
+
+
+def render(package: str, template: str, **values: Any) -> str:
+    """A page, without the line feed at its end.
+
+    Parameters
+    ----------
+    package : the package with the folder ``templates``, in dotted form.
+    template : the file in it. In a file called ``.html`` every value is escaped, in others none.
+    values : what the template names. A name that it does not get is an error.
+    """
+    return _environment(package).get_template(template).render(values).rstrip("\n")
+
+
+@cache
+def _environment(package: str) -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader(package, "templates"),
+        autoescape=jinja2.select_autoescape(("html",), default=False, default_for_string=False),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["number"] = format  # {{ 1234.56 | number(",.1f") }}
+    return environment

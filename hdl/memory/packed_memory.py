@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
+from amaranth.hdl import Cat, Const, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -79,8 +79,9 @@ class PackedMemory(wiring.Component):
         return m
 
     def _within(self, address: Value, base: int, used: int) -> Value:
-        """Whether an address lies in a segment; those above the last do not occur."""
-        return (address >= base) & (address < base + used)
+        """Whether an address lies in a segment; what is always so is not compared, as readers warn of it."""
+        least = address >= base if base else Const(1)
+        return least & (address < base + used) if base + used < self._depth else least
 
 
 def blocks(bits: int, depth: int) -> int:

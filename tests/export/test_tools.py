@@ -9,10 +9,12 @@ import pytest
 from pyslang.ast import Compilation
 from pyslang.syntax import SyntaxTree
 
+from softdepth.export.core_file import export_core
 from softdepth.flow.tools import find_tool
-from softdepth.hdl.verilog import TOP
+from softdepth.hdl.verilog import TOP, to_verilog
 from softdepth.sim.toolchain import find_toolchain
-from tests.export.conftest import SMALL, exported
+from softdepth.spec.config import Config
+from tests.export.conftest import BUILT, SMALL, exported
 from tests.support.icarus import STANDARDS, needs_icarus
 
 WAIVED = {
@@ -59,6 +61,20 @@ def test_verilator_makes_cpp_without_a_word(core: Path) -> None:
     said = verilator(core.parent, "--cc", "core.v")
     assert "%" not in said
     assert (core.parent / "obj_dir" / "Vcore.h").exists()
+
+
+SLOW, FULL = pytest.mark.slow, pytest.mark.full
+DEFAULTS = {"sad": (), "lite": SLOW, "paper": SLOW, "robust-small": SLOW, "compact": FULL}
+"""Presets with a mark where they take seconds; the rest takes what `robust` takes."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(each, marks=DEFAULTS.get(each, FULL)) for each in BUILT])
+def test_verilator_makes_cpp_of_default_cores(name: str, tmp_path: Path) -> None:
+    """Wide memories of several blocks, and as many lanes as users begin with: small cores have neither."""
+    config = Config.preset(name)
+    verilog = to_verilog(config) if config.whole_frame else export_core(config).verilog
+    (tmp_path / "core.v").write_text(verilog)
+    assert "%" not in verilator(tmp_path, "--cc", "core.v")
 
 
 def test_verilator_lints(core: Path) -> None:

@@ -58,7 +58,7 @@ class PackedMemory(wiring.Component):
             bits = []
             for low in range(0, len(word), SEGMENTS[deep]):
                 part = word[low : low + SEGMENTS[deep]]
-                m.submodules[f"at_{base}_{low}"] = memory = Memory(shape=len(part), depth=used, init=[])
+                m.submodules[f"slice_{base}_{low}"] = memory = Memory(shape=len(part), depth=used, init=[])
                 read, write = memory.read_port(), memory.write_port()
                 m.d.comb += [
                     read.en.eq(self.read),

@@ -9,7 +9,7 @@ _CLEARED = re.compile(
 _MODULE = re.compile(r"^module .*?^endmodule$", re.MULTILINE | re.DOTALL)
 _MEMORY = re.compile(r"^  reg (?:\[(\d+):0\] )?(\w+) \[(\d+):0\];$", re.MULTILINE)
 _READ = re.compile(r"^  reg (?:\[(\d+):0\] )?(\w+);$", re.MULTILINE)
-_SLICE = re.compile(r"^  (reg (?:\[\d+:0\] )?slice_\d+ \[\d+:0\];)$", re.MULTILINE)
+_SLICE = re.compile(r"^  (reg (?:\[\d+:0\] )?slice_\d+(?:_\d+)? \[\d+:0\];)$", re.MULTILINE)
 
 
 def without_zeros(rtlil: str) -> str:
@@ -30,7 +30,8 @@ def ready_to_simulate(verilog: str) -> str:
 
 
 def collisions_waived(verilog: str) -> str:
-    """Verilog text in which the slices of `SlicedMemory` are said never to be read where they are written.
+    """Verilog text in which slices of `SlicedMemory` and `PackedMemory` are said never to be read where they
+    are written.
 
     yosys alone knows the attribute. Without it, it builds logic that gives the word from before the write.
     """

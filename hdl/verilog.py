@@ -7,7 +7,7 @@ import sys
 
 from amaranth.lib.wiring import Component
 
-from softdepth.hdl.cores import core_of
+from softdepth.hdl.core import StereoCore
 from softdepth.hdl.text.memories import collisions_waived, ready_to_simulate, without_zeros
 from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of, to_rtlil
 from softdepth.hdl.text.share import share
@@ -50,7 +50,7 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
     and all modules' names begin with `name`. The text can be simulated in any simulator from time 0 on;
     for synthesis, memories have no initial words unless some are not 0.
     """
-    component = core_of(design) if isinstance(design, Config) else design
+    component = StereoCore(design) if isinstance(design, Config) else design
     rtlil = without_zeros(share(to_rtlil(component, name), smallest=math.inf))
     text = plain_names(_written(rtlil, name))
     order = [CLOCK, RESET, *(port.name for port in ports_of(component))]

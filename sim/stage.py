@@ -2,7 +2,7 @@
 
 The core shows its results alone. The model tells what else would have given them: the line above, one
 criterion without the fuzzy stage, an excluded candidate. What is said is what the results are consistent
-with; stages have the names of the docstrings of `StereoCore` and `WholeFrameCore`.
+with; stages have the names of docs/gateware.md.
 """
 
 from collections.abc import Iterator, Sequence

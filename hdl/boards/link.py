@@ -13,7 +13,7 @@ from softdepth.hdl.boards.serial.receiver import UartReceiver
 from softdepth.hdl.boards.serial.sender import PacketSender
 from softdepth.hdl.boards.serial.transmitter import UartTransmitter
 from softdepth.hdl.boards.session import Session
-from softdepth.hdl.cores import core_of
+from softdepth.hdl.core import StereoCore
 from softdepth.spec.config import Config
 from softdepth.spec.protocol import COUNTERS, REPLY, ROW, Type
 
@@ -68,7 +68,7 @@ class SerialCore(wiring.Component):
 
         # A session begins with everything behind the link as after power-up.
         fresh = ResetInserter(session.restart)
-        lines, core, results = LineStore(config), core_of(config), ResultStore(config)
+        lines, core, results = LineStore(config), StereoCore(config), ResultStore(config)
         m.submodules.lines = fresh(lines)
         m.submodules.core = fresh(core)
         m.submodules.results = fresh(results)

@@ -7,9 +7,11 @@ from amaranth.hdl import Module, Signal
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.cost import COSTS, fraction_layout
 from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.sad import SadCriteria
+from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.signatures import pixel_layout
 from softdepth.spec.config import Config
 from softdepth.spec.registry import Registry
@@ -19,7 +21,8 @@ CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's g
 
 It has the ports of `SadCriteria`. Its ``left`` and ``right`` are as many rows of the column as it likes to
 compare, down to the newest that its own support reaches; its ``o`` comes `latency` clocks later, for the
-pixel `Config.window_right` columns before the one that entered.
+pixel `Config.window_right` columns before the one that entered. ``coming`` and ``place`` announce a column
+`look_ahead` clocks before it comes, to those that keep something in memory; it is 0 where that is left out.
 """
 
 CRITERIA.register("sad", SadCriteria)
@@ -36,7 +39,7 @@ class Lane(wiring.Component):
     Members
     -------
     valid : the columns are a step of a pixel.
-    coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
+    coming, place : those in `look_ahead` clocks are one, and which of the line's steps.
     left, right : the columns to compare.
     near : input of the cost, ``criteria_latency`` clocks after the columns.
     o : the candidate's cost, `latency` clocks after the columns.
@@ -49,6 +52,7 @@ class Lane(wiring.Component):
             kind: CRITERIA[kind](config, [c for c in config.criteria if c.kind == kind])
             for kind in sorted({c.kind for c in config.criteria})
         }
+        self.look_ahead = max(getattr(block, "look_ahead", 0) for block in self._criteria.values())
         self.criteria_latency = max(block.latency for block in self._criteria.values())
         self.latency = self.criteria_latency + self._cost.latency
         super().__init__(
@@ -75,8 +79,7 @@ class Lane(wiring.Component):
             rows = range(stop - block.left.shape().length, stop)
             m.d.comb += [
                 block.valid.eq(self.valid),
-                block.coming.eq(self.coming),
-                block.place.eq(self.place),
+                *self._announced(m, kind),
                 *(block.left[k].eq(self.left[row]) for k, row in enumerate(rows)),
                 *(block.right[k].eq(self.right[row]) for k, row in enumerate(rows)),
             ]
@@ -94,3 +97,10 @@ class Lane(wiring.Component):
             self.o.eq(self._cost.o),
         ]
         return m
+
+    def _announced(self, m: Module, kind: str) -> list[Any]:
+        """What tells a kind's criteria of the columns to come, when they want to know."""
+        block = self._criteria[kind]
+        late = self.look_ahead - getattr(block, "look_ahead", 0)
+        coming = travelling(m, self.coming, late, f"{kind}_coming")[-1]
+        return [block.coming.eq(coming), block.place.eq(delayed(m, self.place, late, f"{kind}_place"))]

@@ -2,9 +2,10 @@
 
 from amaranth.hdl import Module, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
-from amaranth.lib.wiring import In, Out
+from amaranth.lib.wiring import In
 
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.costs.bundle import cost_ports
 from softdepth.hdl.costs.comparison import LIKE_BITS, plan
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.criteria.support import SupportWeights
@@ -49,10 +50,7 @@ class WholeCosts(wiring.Component):
     Members
     -------
     i : the raster of `Descriptors`.
-    credit, begins : a slot may begin, and one does.
-    valid, first, last, step : a step's costs are there, and where it stands in its slot.
-    costs, excluded : of each lane's candidate.
-    tags : `tags_layout`, through all steps of the slot.
+    The others : `cost_ports`, with `tags_layout` through all steps of a slot.
     """
 
     def __init__(self, config: Config, descriptors: data.StructLayout, channels: int, *, drain: int) -> None:
@@ -62,19 +60,11 @@ class WholeCosts(wiring.Component):
         self.maximum = self._sums[0].maximum
         self._drain = drain
         self._colour_bits = descriptors["colour"].width
-        cost = unsigned(cost_bits(self.maximum))
+        cost, tags = unsigned(cost_bits(self.maximum)), tags_layout(self._colour_bits)
         super().__init__(
             {
                 "i": In(stream.Signature(descriptors)),
-                "credit": In(1),
-                "begins": Out(1),
-                "valid": Out(1),
-                "first": Out(1),
-                "last": Out(1),
-                "step": Out(range(config.steps)),
-                "costs": Out(data.ArrayLayout(cost, config.lanes)),
-                "excluded": Out(config.lanes),
-                "tags": Out(tags_layout(self._colour_bits)),
+                **cost_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=tags),
             }
         )
 

@@ -2,9 +2,10 @@
 
 from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
-from amaranth.lib.wiring import In, Out
+from amaranth.lib.wiring import Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.costs.bundle import winner_ports
 from softdepth.hdl.costs.whole_costs import tags_layout
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.memory.result_queue import ResultQueue
@@ -27,8 +28,8 @@ class WholeWinners(wiring.Component):
 
     Members
     -------
-    valid, first, last, step, costs, excluded, tags : as they leave `WholeCosts`.
-    credit, begins : a slot may begin in this clock, and one does, ``ahead`` clocks before its first costs.
+    The ports of `winner_ports` with the tags of `WholeCosts`; a slot begins ``ahead`` clocks before its first
+    costs. And
     o : a stream of results, `post_layout`.
     """
 
@@ -40,15 +41,7 @@ class WholeWinners(wiring.Component):
         cost = unsigned(self._bits)
         super().__init__(
             {
-                "credit": Out(1),
-                "begins": In(1),
-                "valid": In(1),
-                "first": In(1),
-                "last": In(1),
-                "step": In(range(config.steps)),
-                "costs": In(data.ArrayLayout(cost, config.lanes)),
-                "excluded": In(config.lanes),
-                "tags": In(self._tags),
+                **winner_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=self._tags),
                 "o": Out(stream.Signature(self.layout)),
             }
         )

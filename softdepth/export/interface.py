@@ -55,8 +55,8 @@ class Interface:
     config: Config
     ports: tuple[Port, ...]
     codes: tuple[Validity, ...]
-    latency: int
-    full_rate_latency: int
+    latency: int | None
+    full_rate_latency: int | None
 
 
 def interface_of(core: StereoCore, config: Config, name: str) -> Interface:

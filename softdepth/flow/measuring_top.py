@@ -4,7 +4,7 @@ from amaranth.hdl import Cat, Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.cores import core_of
+from softdepth.hdl.core import StereoCore
 from softdepth.spec.config import Config
 
 
@@ -23,7 +23,7 @@ class MeasuringTop(wiring.Component):
     """
 
     def __init__(self, config: Config) -> None:
-        self._core = core_of(config)
+        self._core = StereoCore(config)
         core = self._core
         self._inputs = Cat(core.i.payload.as_value(), core.i.valid, core.o.ready)
         self._outputs = Cat(core.o.payload.as_value(), core.o.valid, core.i.ready, core.status.as_value())

@@ -66,10 +66,10 @@ def synthesise(
 
 def core_netlist(config: Config, *, passes: Sequence[NetlistPass] | None = None) -> Netlist:
     """The ECP5 netlist of a core alone, after all passes; raises as `synthesise` does."""
-    from softdepth.hdl.cores import core_of  # elaboration is slow to import
+    from softdepth.hdl.core import StereoCore  # elaboration is slow to import
 
     with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
-        return synthesise(core_of(config), "ecp5", Path(folder), passes=passes)
+        return synthesise(StereoCore(config), "ecp5", Path(folder), passes=passes)
 
 
 def cells(netlist: Netlist) -> Counter[str]:

@@ -8,10 +8,10 @@ from amaranth.hdl import Module
 from amaranth.lib import wiring
 
 from softdepth.golden import fixed_model
-from softdepth.hdl import whole_core
 from softdepth.hdl.costs import whole_costs
 from softdepth.hdl.costs.criteria import running_sums
 from softdepth.hdl.post import median, rank
+from softdepth.hdl.post import stages as post_stages
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.verilog import to_verilog
 from softdepth.hdl.winners import whole_winners
@@ -131,7 +131,7 @@ def fill_across_lines(monkeypatch: pytest.MonkeyPatch) -> None:
             ]
             return m
 
-    monkeypatch.setattr(whole_core, "Fill", Across)
+    monkeypatch.setattr(post_stages, "Fill", Across)
 
 
 def take_the_median_of_24(monkeypatch: pytest.MonkeyPatch) -> None:

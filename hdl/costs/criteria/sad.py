@@ -10,6 +10,7 @@ from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
 from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.box_sum import BoxSum
 from softdepth.hdl.costs.criteria.column_sad import ColumnSad, column_maximum
+from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.signatures import pixel_layout
 from softdepth.spec.config import Config, Sad
@@ -30,11 +31,13 @@ class SadCriteria(wiring.Component):
     Members
     -------
     valid : the columns are a step of a pixel.
-    coming, place : those in `LOOKUP_AHEAD` clocks are one, and which of the line's steps.
+    coming, place : those in `look_ahead` clocks are one, and which of the line's steps.
     left, right : the columns to compare, from the top: the largest window without its stored rows.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
         `Config.window_right` columns before the one that entered.
     """
+
+    look_ahead = LOOKUP_AHEAD
 
     def __init__(self, config: Config, criteria: Sequence[Sad]) -> None:
         self._config = config

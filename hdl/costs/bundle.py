@@ -1,0 +1,48 @@
+"""What passes from the costs to the winners: the one interface between the two rooms."""
+
+from amaranth.hdl import Module, ShapeLike, Value
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Member, Out
+
+FORTH = ("begins", "valid", "first", "last", "step", "costs", "excluded", "tags")
+"""What the costs say; `credit` goes the other way."""
+
+
+def cost_ports(*, lanes: int, steps: int, cost: ShapeLike, tags: ShapeLike) -> dict[str, Member]:
+    """Ports of a component that judges candidates, ``lanes`` a clock; winners have them the other way round.
+
+    Nothing here is held back: who judges begins only where there is ``credit``.
+
+    Members
+    -------
+    credit : another result may be begun.
+    begins : one is, a fixed time before its first costs (``latency`` of the costs).
+    valid, first, last, step : a step's costs are there, and where it stands in its pixel.
+    costs, excluded : of each lane's candidate, `right_columns.candidate`.
+    tags : what is known of the result beside its costs, in the same clock or a fixed time before
+        (``tags_ahead`` of the costs).
+    """
+    return {
+        "credit": In(1),
+        "begins": Out(1),
+        "valid": Out(1),
+        "first": Out(1),
+        "last": Out(1),
+        "step": Out(range(steps)),
+        "costs": Out(data.ArrayLayout(cost, lanes)),
+        "excluded": Out(lanes),
+        "tags": Out(tags),
+    }
+
+
+def winner_ports(*, lanes: int, steps: int, cost: ShapeLike, tags: ShapeLike) -> dict[str, Member]:
+    """`cost_ports` as the winners see them."""
+    ports = cost_ports(lanes=lanes, steps=steps, cost=cost, tags=tags)
+    return {name: member.flip() for name, member in ports.items()}
+
+
+def join(m: Module, costs: wiring.Component, winners: wiring.Component) -> None:
+    """Connect one that judges to one that chooses."""
+    m.d.comb += costs.credit.eq(winners.credit)  # type: ignore[attr-defined]
+    for name in FORTH:
+        m.d.comb += Value.cast(getattr(winners, name)).eq(Value.cast(getattr(costs, name)))

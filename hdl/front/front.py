@@ -1,0 +1,79 @@
+"""Pixel pairs in, well-formed frames of what is compared out: the first room."""
+
+from amaranth.hdl import Module, ResetSignal
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.costs.comparison import plan
+from softdepth.hdl.front.descriptors import Descriptors
+from softdepth.hdl.front.frame_ends import FrameEnds
+from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
+from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.signatures import Status, pair_layout
+from softdepth.spec.config import Config, Gradient
+
+
+class Front(wiring.Component):
+    """Mends frames, and says of each view's pixels what they are compared by.
+
+    ::
+
+        i > frame guard > queue > (frame ends > descriptors) > o
+
+    Windows of pixels are compared as they are; criteria that need descriptors get them, with the frame's
+    edges repeated. During reset no pixel is taken: ``i.ready`` is low.
+
+    Members
+    -------
+    i : stream of `pair_layout(config.pixel)`.
+    o : stream of `layout`: `item_layout` of whole frames, or the raster of `Descriptors`.
+    status : counters of broken input.
+    """
+
+    latency = ItemQueue.latency
+    """Clocks from a pair to its item."""
+    places = ItemQueue.places
+    """Items that wait here where the room behind is busy."""
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._descriptors = self._wanted() if config.whole_frame else None
+        self.layout: data.StructLayout = (
+            self._descriptors.layout if self._descriptors else item_layout(config)
+        )
+        super().__init__(
+            {
+                "i": In(stream.Signature(pair_layout(config.pixel))),
+                "o": Out(stream.Signature(self.layout)),
+                "status": Out(Status),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        config = self._config
+        m.submodules.guard = guard = FrameGuard(config)
+        m.submodules.queue = queue = ItemQueue(item_layout(config))
+        m.d.comb += [
+            guard.i.valid.eq(self.i.valid),
+            guard.i.payload.eq(self.i.payload),
+            self.i.ready.eq(guard.i.ready & ~ResetSignal("sync")),
+            self.status.eq(guard.status),
+        ]
+        wiring.connect(m, guard.o, queue.i)
+        if self._descriptors is None:
+            wiring.connect(m, queue.o, wiring.flipped(self.o))
+            return m
+        m.submodules.ends = ends = FrameEnds(config)
+        m.submodules.descriptors = self._descriptors
+        wiring.connect(m, queue.o, ends.i)
+        wiring.connect(m, ends.o, self._descriptors.i)
+        wiring.connect(m, self._descriptors.o, wiring.flipped(self.o))
+        return m
+
+    def _wanted(self) -> Descriptors:
+        """The descriptors that the criteria compare."""
+        pixel, comparisons = self._config.pixel, plan(self._config).comparisons
+        caps = {c.field: c.criterion.cap for c in comparisons if isinstance(c.criterion, Gradient)}
+        census = len(caps) < len(comparisons)
+        return Descriptors(pixel.channels, pixel.bits, self._config.max_width, census=census, caps=caps)

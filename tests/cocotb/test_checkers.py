@@ -7,13 +7,14 @@ from amaranth.hdl import Const, Module, Value
 from amaranth.lib import fifo, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl import core
 from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
 from softdepth.hdl.arithmetic.wires import flag
+from softdepth.hdl.costs import band_costs
 from softdepth.hdl.costs.criteria import column_sad, row_memory
 from softdepth.hdl.costs.fuzzy import cell_inference, mean_inference, rule_array
 from softdepth.hdl.front import line_buffer
 from softdepth.hdl.verilog import to_verilog
+from softdepth.hdl.winners import band_winners
 from softdepth.sim.stalls import Pauses, Stalls
 from softdepth.spec import rules
 from softdepth.spec.config import Config
@@ -53,7 +54,7 @@ def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
             m.d.comb += [self.column[row].eq(inner.column[row]) for row in range(self._rows)]
             return m
 
-    monkeypatch.setattr(core, "LineBuffer", Shifted)
+    monkeypatch.setattr(band_costs, "LineBuffer", Shifted)
 
 
 def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,7 +86,7 @@ def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
             ]
             return m
 
-    monkeypatch.setattr(core, "SyncFIFOBuffered", Leaky)
+    monkeypatch.setattr(band_winners, "SyncFIFOBuffered", Leaky)
 
 
 def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:

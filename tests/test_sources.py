@@ -6,7 +6,16 @@ from softdepth import sources
 from softdepth.sources import BUILDS_ON, covered, folder, sources_hash
 from tests.support.imports import graph, modules
 
-SHARED = {"__init__.py", "errors.py", "files.py", "markers.py", "webpage.py", "screen.py", "sources.py"}
+SHARED = {
+    "__init__.py",
+    "errors.py",
+    "files.py",
+    "markers.py",
+    "webpage.py",
+    "screen.py",
+    "sources.py",
+    "templates.py",
+}
 """Modules that decide no result: how errors read, where files and tables lie."""
 
 

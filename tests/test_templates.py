@@ -1,6 +1,7 @@
 """Pages from templates: what is escaped, how numbers are written, and what is refused."""
 
 from collections.abc import Iterator
+from importlib.resources import files
 
 import jinja2
 import pytest
@@ -33,3 +34,15 @@ def test_values_are_escaped_in_html_alone(package):
 def test_a_name_without_a_value_is_an_error(package):
     with pytest.raises(jinja2.UndefinedError, match="title"):
         render(package, "page.md", numbers=[])
+
+
+def test_a_table_has_words_to_the_left_and_numbers_to_the_right(tmp_path_factory, monkeypatch):
+    folder = tmp_path_factory.mktemp("others") / "tabled" / "templates"
+    folder.mkdir(parents=True)
+    (folder.parent / "__init__.py").touch()
+    shared = files("softdepth.studies") / "templates" / "tables.md"
+    (folder / "tables.md").write_text(shared.read_text())
+    (folder / "page.md").write_text("{% from 'tables.md' import grid %}\n{{ grid(['a', 'b'], 1, rows) }}\n")
+    monkeypatch.syspath_prepend(folder.parents[1])
+    rows = [["x", "1"], ["", "2"]]
+    assert render("tabled", "page.md", rows=rows) == "| a | b |\n|---|---:|\n| x | 1 |\n|  | 2 |"

@@ -14,6 +14,7 @@ from softdepth.spec.boards import BOARDS, Board
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 from softdepth.studies import markers
+from softdepth.templates import render
 
 DOCUMENT = Path("docs/flow.md")
 PART = "boards"
@@ -24,22 +25,18 @@ RESOURCES = tuple(dict.fromkeys(WORDS.values()))
 
 def page(manifests: dict[Board, Manifest]) -> str:
     """The table: a row a board, with what its default core takes of the part and how fast it is."""
-    lines = [
-        "| board | part | core by default | largest image | "
-        + " | ".join(RESOURCES)
-        + " | clock, MHz | reached | Mpixel/s | bitstream |",
-        "|---|---|---|---|" + "---:|" * (len(RESOURCES) + 3) + "---|",
-    ]
+    builds = []
     for board, manifest in manifests.items():
-        config = Config.from_dict(manifest.config)
-        used = (_used(manifest, resource) for resource in RESOURCES)
-        lines.append(
-            f"| `{board.name}` | {board.device} | `{config.name}`, {config.disparities} disparities,"
-            f" lanes = {config.lanes} | {config.max_width} x {config.max_height} | {' | '.join(used)}"
-            f" | {manifest.wanted_mhz:.1f} | {manifest.fmax_mhz:.1f}"
-            f" | {manifest.wanted_mhz / config.steps:.1f} | `{Path(manifest.bitstream).suffix}` |"
+        builds.append(
+            {
+                "board": board,
+                "manifest": manifest,
+                "config": Config.from_dict(manifest.config),
+                "used": [_used(manifest, resource) for resource in RESOURCES],
+                "suffix": Path(manifest.bitstream).suffix,
+            }
         )
-    return "\n".join(lines)
+    return render("softdepth.studies", "boards.md", resources=RESOURCES, builds=builds)
 
 
 def _used(manifest: Manifest, resource: str) -> str:

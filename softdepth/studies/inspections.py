@@ -22,6 +22,7 @@ from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError, SoftdepthError
 from softdepth.studies import markers
 from softdepth.studies.broken import Broken, variants
+from softdepth.templates import render
 
 SCENES_VARIABLE = "SOFTDEPTH_SCENES"
 DOCUMENT = Path("docs/inspect.md")
@@ -48,6 +49,11 @@ class Tally:
     pairs: int = 0
     named: int = 0
     called_more: list[str] = field(default_factory=list)
+
+    @property
+    def more(self) -> list[tuple[str, int]]:
+        """What they are called more, and how often."""
+        return Counter(self.called_more).most_common()
 
 
 def read_scenes(folder: Path) -> list[Scene]:
@@ -114,25 +120,27 @@ def study(scenes: list[Scene], rows: tuple[int, ...] | None = None) -> str:
             tally.pairs += 1
             tally.named += named
             tally.called_more += sorted(more)
-    return "\n".join([*_as_they_are(scenes, before), "", *_broken(tallies)])
+    return render(
+        "softdepth.studies",
+        "inspections.md",
+        config=CONFIG,
+        covered=COVERED,
+        scenes=len(scenes),
+        silent=sum(not codes(found) for found in before.values()),
+        enough=sum(_holds(before[scene.name], scene) for scene in scenes),
+        lines=_said(before),
+        tallies=tallies,
+    )
 
 
-def _as_they_are(scenes: list[Scene], before: dict[str, Inspection]) -> list[str]:
-    silent = sum(not codes(found) for found in before.values())
-    enough = sum(_holds(before[scene.name], scene) for scene in scenes)
-    lines = [
-        f"Of {len(scenes)} pairs as they are, {silent} are called sound for {CONFIG.disparities} candidates;"
-        f" the range that would do holds {COVERED} % of the known disparities in {enough}. What is said about"
-        " the others:",
-        "",
+def _said(before: dict[str, Inspection]) -> list[tuple[str, str]]:
+    """What is said about pairs as they are, each with the scene's name."""
+    return [
+        (name, line)
+        for name, found in before.items()
+        for finding, line in zip(found.findings, found.lines, strict=True)
+        if finding.code != "needless"
     ]
-    for name, found in before.items():
-        lines += [
-            f"- `{name}`: {line}."
-            for finding, line in zip(found.findings, found.lines, strict=True)
-            if finding.code != "needless"
-        ]
-    return lines
 
 
 def _holds(found: Inspection, scene: Scene) -> bool:
@@ -140,17 +148,6 @@ def _holds(found: Inspection, scene: Scene) -> bool:
         return False
     last = found.range.first + found.range.disparities - 1
     return float(np.percentile(scene.known, COVERED)) <= last + 0.5
-
-
-def _broken(tallies: dict[str, Tally]) -> list[str]:
-    lines = [
-        "| the same pairs, broken | pairs | named for it | called something else besides |",
-        "|---|---:|---:|---|",
-    ]
-    for kind, tally in tallies.items():
-        more = ", ".join(f"{code} ({count})" for code, count in Counter(tally.called_more).most_common())
-        lines.append(f"| {kind} | {tally.pairs} | {tally.named} | {more or '-'} |")
-    return lines
 
 
 def main(project: Path) -> None:

@@ -18,6 +18,7 @@ from softdepth.hdl.verilog import TOP
 from softdepth.spec.config import PRESETS, Config
 from softdepth.spec.errors import InputError, ToolError
 from softdepth.studies import markers
+from softdepth.templates import render
 
 DOCUMENT = Path("docs/flow.md")
 PART = "reading"
@@ -76,21 +77,12 @@ def _run(tool: Tool, script: str, folder: Path) -> tuple[int, int]:
 
 def page() -> str:
     """The table: each preset as it is by default."""
-    lines = [
-        "| exported | read, s | and `synth_ecp5`, s | memory, MiB | LUT4 | flip-flops | block RAMs |",
-        "|---|---:|---:|---:|---:|---:|---:|",
-    ]
+    rows = []
     for name in built_presets():
         config = Config.preset(name)
         verilog = export_core(config).verilog
-        only, whole = read(verilog, "proc"), read(verilog, f"synth_ecp5 -top {TOP}")
-        counts = (whole.cells.get(kind, 0) for kind in ("LUT4", "TRELLIS_FF", "DP16KD"))
-        lines.append(
-            f"| `{name}`, {config.disparities} disparities, lanes = {config.lanes}, {config.max_width} wide"
-            f" | {only.seconds:.1f} | {whole.seconds:.0f} | {whole.megabytes:.0f}"
-            f" | {' | '.join(f'{count:,}' for count in counts)} |"
-        )
-    return "\n".join([*lines, "", f"By {find_tool('yosys').version}, its start included."])
+        rows.append((config, read(verilog, "proc"), read(verilog, f"synth_ecp5 -top {TOP}")))
+    return render("softdepth.studies", "reading.md", rows=rows, version=find_tool("yosys").version)
 
 
 def main(project: Path) -> None:

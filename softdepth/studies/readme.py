@@ -13,6 +13,7 @@ from softdepth.run.measure import Engine
 from softdepth.run.report import Report
 from softdepth.spec.errors import InputError
 from softdepth.studies import markers
+from softdepth.templates import render
 
 PART = "figures"
 AREA = "area"
@@ -33,26 +34,9 @@ def figures(report: Report) -> str:
     """The report as the README shows it; raises `InputError` for a run without gateware or truth."""
     if report.rtl_mismatches is None or report.metrics["rtl"].bad1 is None:
         raise InputError(f"the run of {report.pair} has no gateware figures", "run make demo first")
-    rows = []
-    for engine, title in _TITLES.items():
-        a = report.metrics[engine]
-        if a.bad1 is None:
-            continue
-        rows.append(
-            f"| {title} | {a.bad1:.2f} % | {a.bad2:.2f} % | {a.mae:.2f} px | {a.rmse:.2f} px"
-            f" | {a.paper_rmse:.2f} |"
-        )
-    return "\n".join(
-        [
-            f"Measured on {report.pair}, {report.width}x{report.height}, preset {report.config['name']}"
-            f" (`{report.config_hash}`): **{report.rtl_mismatches} of {report.pixels:,} pixels** differ"
-            f" between gateware and fixed-point model; {report.cycles_per_pixel:.3f} clocks per pixel.",
-            "",
-            "| | bad > 1 px | bad > 2 px | mean error | RMS error | paper's RMSE, gray levels |",
-            "|---|---:|---:|---:|---:|---:|",
-            *rows,
-        ]
-    )
+    scores = ((title, report.metrics[engine]) for engine, title in _TITLES.items())
+    rows = [(title, score) for title, score in scores if score.bad1 is not None]
+    return render("softdepth.studies", "figures.md", report=report, rows=rows)
 
 
 def renew(text: str, report: Report) -> str:
@@ -70,18 +54,7 @@ def area(utilization: str) -> str:
         known = best.get(row.preset)
         if row.operator == "mean" and (known is None or row.mde_s > known.mde_s):
             best[row.preset] = row
-    return "\n".join(
-        [
-            "| core | part | LUT4 (per lane) | flip-flops | block RAMs | multipliers | clock | Mpixel/s |",
-            "|---|---|---:|---:|---:|---:|---:|---:|",
-            *(
-                f"| `{r.preset}`, {r.disparities} disparities, {r.lanes} lanes, {r.width} wide | {r.device}"
-                f" | {r.lut4:,} ({r.lut4_per_lane:.0f}) | {r.ff:,} | {r.ebr} | {r.dsp} | {r.fmax_mhz:.1f} MHz"
-                f" | {r.mpixel_s:.1f} |"
-                for r in best.values()
-            ),
-        ]
-    )
+    return render("softdepth.studies", "area.md", rows=list(best.values()))
 
 
 def main(results: Path, project: Path) -> None:

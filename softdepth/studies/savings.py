@@ -25,6 +25,7 @@ from softdepth.spec.config import OPERATORS, Config
 from softdepth.spec.errors import InputError
 from softdepth.spec.rules import Firing
 from softdepth.studies import markers
+from softdepth.templates import render
 
 DOCUMENT = Path("docs/area.md")
 FIGURES = DOCUMENT.with_suffix(".json")
@@ -79,10 +80,8 @@ def measure(config: Config, variant: Variant) -> dict[str, int]:
 
 def page(presets: Sequence[str] = LANES) -> str:
     """The table: a row for each saving, with what a lane takes without it."""
-    lines = [
-        "| without | " + " | ".join(f"{p}: LUT4 | FF | block RAM" for p in presets) + " |",
-        "|---|" + "---:|---:|---:|" * len(presets),
-    ]
+    columns = [column for p in presets for column in (f"{p}: LUT4", "FF", "block RAM")]
+    rows = []
     for number, variant in enumerate(VARIANTS, start=1):
         screen.note(f"row {number} of {len(VARIANTS)}: without {variant.without}")
         entries: list[str] = []
@@ -93,8 +92,8 @@ def page(presets: Sequence[str] = LANES) -> str:
             config = Config.preset(preset).override(CORE)
             found = measure(config, variant)
             entries += [str(found[name]) for name in ("lut4", "ff", "ebr")]
-        lines.append(f"| {variant.without} | " + " | ".join(entries) + " |")
-    return "\n".join(lines)
+        rows.append([variant.without, *entries])
+    return render("softdepth.studies", "savings.md", columns=columns, rows=rows)
 
 
 def operators() -> dict[Firing, dict[str, dict[str, int]]]:
@@ -113,17 +112,7 @@ def operators() -> dict[Firing, dict[str, dict[str, int]]]:
 
 def operator_page(found: dict[Firing, dict[str, dict[str, int]]]) -> str:
     """The same as a table."""
-    mean = found["all"]["mean"]["lut4"]
-    rows = []
-    for firing, lanes in found.items():
-        for operator, lane in lanes.items():
-            lut4, ff, dsp = (lane[name] for name in ("lut4", "ff", "dsp"))
-            rows.append(f"| {operator} | {firing} | {lut4} | {lut4 / mean:.2f} | {ff} | {dsp} |")
-    heads = [
-        "| operator | rules that fire | LUT4 | of MEAN's over all | FF | multipliers |",
-        "|---|---|---:|---:|---:|---:|",
-    ]
-    return "\n".join([*heads, *rows])
+    return render("softdepth.studies", "operators.md", found=found)
 
 
 def main() -> None:

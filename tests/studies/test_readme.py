@@ -109,3 +109,9 @@ def test_the_area_is_that_of_the_fastest_core_of_each_preset():
         "| `paper`, 64 disparities, 32 lanes, 1280 wide | LFE5U-85F-6 | 31,000 (969) |"
     )
     assert table[3].startswith("| `sad`")
+
+
+def test_the_projects_table_of_cores_is_what_the_measurements_give(project):
+    first, last = markers(readme.AREA)
+    text = (project / "README.md").read_text().split(first)[1].split(last)[0]
+    assert text.strip() == readme.area((project / readme.UTILIZATION).read_text())

@@ -1,9 +1,11 @@
 """What a lane takes without a saving, on a lane that is quickly built."""
 
+import json
+
 import pytest
 
 from softdepth.spec.config import Config
-from softdepth.studies.savings import ROW_MEMORY, VARIANTS, measure, operator_page
+from softdepth.studies.savings import DOCUMENT, FIGURES, ROW_MEMORY, VARIANTS, measure, operator_page
 
 LANE = Config.preset("sad").override(["disparities=4", "lanes=2", "max_width=1280"])
 """As many places as its row memory has in a core of 64 candidates and 32 lanes."""
@@ -28,3 +30,9 @@ def test_operators_are_set_beside_mean():
         "| mean | all | 100 | 1.00 | 5 | 2 |",
         "| mean | cell | 60 | 0.60 | 5 | 2 |",
     ]
+
+
+def test_the_documents_table_of_operators_is_what_the_measurements_give(project):
+    found = json.loads((project / FIGURES).read_text())
+    table = operator_page({"all": found["lanes"], "cell": found["lanes_of_the_cell"]})
+    assert f"-->\n{table}\n<!--" in (project / DOCUMENT).read_text()

@@ -16,6 +16,7 @@ from softdepth.studies.compare import tables
 from softdepth.studies.compare.comparison import LAST, Comparison
 from softdepth.studies.compare.sweep import MEMBERSHIP_BITS, TOLERANCE
 from softdepth.studies.readme import shrink
+from softdepth.templates import render
 
 PARTS = {"measured": "docs/compare.md", "formats": "docs/compare.md", "exhaustive": "docs/operators.md"}
 """The generated parts, by marker, and the document each stands in."""
@@ -26,43 +27,30 @@ EXHAUSTIVE_BITS = (4, 6, 8)
 
 def measured(many: list[Comparison]) -> str:
     """The compared configuration on each pair, then the formats, averaged over the pairs of an operator."""
-    lines = [
-        *_rows(
-            "differ | by > 1 px | by > 2 px | RMSE | by the label | by the width"
-            " | hardware nearer | float nearer"
-        ),
-        *(_line(c, _difference(c)) for c in many),
-        "",
-        "**Against the truth**",
-        "",
-        *_rows(
-            "bad > 1 px, float | hardware | bad > 2 px, float | hardware | paper's RMSE, float | hardware"
-        ),
-        *(_line(c, _scores(c)) for c in many),
-        "",
-        f"**Fewest membership bits that are enough: at most {TOLERANCE} percentage points more bad pixels"
-        " (> 1 px) than the float model with T = 5000**",
-        "",
-        *_rows(" | ".join(f"T = 2^{bits}" for bits in many[0].sweep.label_bits)),
-        *(_line(c, [str(label.enough or "-") for label in c.sweep.labels]) for c in many),
-    ]
+    grids = []
     for (preset, operator), group in groupby(many, key=_method):
         same = list(group)
         for heading, figure in tables.figures(same[0]).items():
             title = f"{preset}, {operator.upper()}, mean of {len(same)} pairs: {heading}"
-            lines += ["", f"**{title}**", "", *tables.table(same, figure)]
-    return "\n".join(lines)
+            grids.append((title, *tables.table(same, figure)))
+    return render(
+        "softdepth.studies",
+        "measured.md",
+        names=["pair", "preset", "operator"],
+        differences=[_row(c, _difference(c)) for c in many],
+        scores=[_row(c, _scores(c)) for c in many],
+        tolerance=TOLERANCE,
+        labels=[f"T = 2^{bits}" for bits in many[0].sweep.label_bits],
+        enough=[_row(c, [str(label.enough or "-") for label in c.sweep.labels]) for c in many],
+        grids=grids,
+    )
 
 
 def formats() -> str:
     """What a width costs: bits of the fraction N / S, and multipliers of the preset's lanes."""
     operators = ("mean", "min")
-    lines = [
-        "| membership bits | "
-        + " | ".join(f"{o.upper()}: bits of N, S | multipliers" for o in operators)
-        + " |",
-        "|---:|" + "---:|" * 2 * len(operators),
-    ]
+    columns = [column for o in operators for column in (f"{o.upper()}: bits of N, S", "multipliers")]
+    rows = []
     for bits in MEMBERSHIP_BITS:
         cells = [str(bits)]
         for operator in operators:
@@ -73,41 +61,33 @@ def formats() -> str:
                 ", ".join(str((high - low).bit_length()) for low, high in config.cost_range),
                 str(config.multipliers),
             ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        rows.append(cells)
+    return render("softdepth.studies", "formats.md", columns=columns, rows=rows)
 
 
 def exhaustive() -> str:
     """The worst difference of every fixed-point operator, over all its inputs."""
-    from softdepth.studies.operator_error import Reference, operator_error
+    from softdepth.studies.operator_error import OperatorError, Reference, operator_error
 
-    def row(name: str, changes: list[str], reference: Reference) -> str:
+    def row(name: str, changes: list[str], reference: Reference) -> tuple[str, list[OperatorError]]:
         errors = [
             operator_error(
                 Config.preset("paper").override([*changes, "lanes=1", f"membership_bits={bits}"]), reference
             )
             for bits in EXHAUSTIVE_BITS
         ]
-        last = errors[-1]
-        worst = " | ".join(f"{e.worst:.5f} ({e.steps:.2f})" for e in errors)
-        where = ", ".join(map(str, last.inputs)) if last.worst else "-"
-        return f"| {name} | {worst} | {last.rms:.5f} | {where} |"
+        return name, errors
 
-    lines = [
-        "| operator | "
-        + " | ".join(f"worst, {bits} bits" for bits in EXHAUSTIVE_BITS)
-        + f" | RMS, {EXHAUSTIVE_BITS[-1]} bits | worst at a, b, c |",
-        "|---|" + "---:|" * (len(EXHAUSTIVE_BITS) + 2),
-    ]
+    rows = []
     for operator in REGISTRY:
         if operator != "soft_min_2":
-            lines.append(row(f"`{operator}`", [f"operator={operator}"], "at once"))
+            rows.append(row(f"`{operator}`", [f"operator={operator}"], "at once"))
             continue
         for k in (-100, 100):
             changes = [f"operator={operator}", f"sharpness={k}.0"]
-            lines.append(row(f"`{operator}`, k = {k}, against three at once", changes, "at once"))
-            lines.append(row(f"`{operator}`, k = {k}, against nested", changes, "nested"))
-    return "\n".join(lines)
+            rows.append(row(f"`{operator}`, k = {k}, against three at once", changes, "at once"))
+            rows.append(row(f"`{operator}`, k = {k}, against nested", changes, "nested"))
+    return render("softdepth.studies", "exhaustive.md", widths=EXHAUSTIVE_BITS, rows=rows)
 
 
 def main(results: Path, project: Path) -> None:
@@ -136,13 +116,9 @@ def _method(found: Comparison) -> tuple[str, str]:
     return found.config["name"], found.config["operator"]
 
 
-def _rows(columns: str) -> list[str]:
-    """The first two lines of a table with a row per comparison."""
-    return [f"| pair | preset | operator | {columns} |", "|---|---|---|" + "---:|" * (columns.count("|") + 1)]
-
-
-def _line(found: Comparison, cells: list[str]) -> str:
-    return f"| {' | '.join([found.pair, *_method(found), *cells])} |"
+def _row(found: Comparison, cells: list[str]) -> list[str]:
+    """A row of a table with one for each comparison."""
+    return [found.pair, *_method(found), *cells]
 
 
 def _difference(found: Comparison) -> list[str]:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from softdepth.studies.compare.sweep import TOLERANCE, Point
+from softdepth.templates import render
 
 if TYPE_CHECKING:
     from softdepth.studies.compare.comparison import Comparison
@@ -50,18 +51,16 @@ def enough(found: "Comparison") -> list[str]:
 
 def page(found: "Comparison") -> str:
     """The whole comparison: summary, then one table of formats per question."""
-    lines = [f"# Hardware against float model: {title(found)}", "", f"{sentence(found)}.", ""]
-    if (a := found.agreement).closer is not None:
-        lines += [
-            f"Of the pixels that differ, {a.closer:.1f} % are nearer to the truth in hardware, "
-            f"{a.farther:.1f} % in the float model.",
-            "",
-        ]
-    for heading, figure in figures(found).items():
-        lines += [f"## {heading}", "", *table([found], figure), ""]
-    if lines_enough := enough(found):
-        lines += ["## Enough", "", *(f"- {line}" for line in lines_enough), ""]
-    return "\n".join(lines[:-1]) + "\n"
+    text = render(
+        "softdepth.studies",
+        "comparison.md",
+        title=title(found),
+        sentence=sentence(found),
+        agreement=found.agreement,
+        grids=[(heading, *table([found], figure)) for heading, figure in figures(found).items()],
+        enough=enough(found),
+    )
+    return text + "\n"
 
 
 def figures(found: "Comparison") -> dict[str, Callable[[Point], float | None]]:
@@ -76,22 +75,17 @@ def figures(found: "Comparison") -> dict[str, Callable[[Point], float | None]]:
     return shown
 
 
-def table(many: "list[Comparison]", figure: Callable[[Point], float | None]) -> list[str]:
-    """`figure` by membership bits and label, the mean over some comparisons, as Markdown lines."""
+def table(
+    many: "list[Comparison]", figure: Callable[[Point], float | None]
+) -> tuple[list[str], list[list[str]]]:
+    """`figure` by membership bits and label, the mean over some comparisons: the head, and the rows."""
     first = many[0].sweep
-    rows = [
-        f"| {bits} | "
-        + " | ".join(
-            _mean([found.sweep.point(bits, label) for found in many], figure) for label in first.label_bits
-        )
-        + " |"
-        for bits in first.membership_bits
-    ]
-    return [
-        "| membership bits | " + " | ".join(f"T = 2^{label}" for label in first.label_bits) + " |",
-        "|---:|" + "---:|" * len(first.labels),
-        *rows,
-    ]
+    head = ["membership bits", *(f"T = 2^{label}" for label in first.label_bits)]
+    rows = []
+    for bits in first.membership_bits:
+        points = [[found.sweep.point(bits, label) for found in many] for label in first.label_bits]
+        rows.append([str(bits), *(_mean(each, figure) for each in points)])
+    return head, rows
 
 
 def _mean(points: list[Point | None], figure: Callable[[Point], float | None]) -> str:

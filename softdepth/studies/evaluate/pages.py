@@ -8,6 +8,7 @@ from softdepth.studies import webpage
 from softdepth.studies.evaluate import plots
 from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.tables import Table, tables
+from softdepth.templates import render
 
 PART = "accuracy"
 """The marker of the generated part of docs/accuracy.md."""
@@ -15,16 +16,7 @@ PART = "accuracy"
 
 def markdown(evaluation: Evaluation) -> str:
     """Every table."""
-    parts = []
-    for table in tables(evaluation):
-        head, *rows = table.rows
-        lines = [
-            _line(head),
-            "|" + "---|" * table.names + "---:|" * (len(head) - table.names),
-            *map(_line, rows),
-        ]
-        parts.append(f"### {table.title}\n\n{table.text}\n\n" + "\n".join(lines))
-    return "\n\n".join(parts)
+    return render("softdepth.studies", "accuracy.md", tables=tables(evaluation))
 
 
 def page(evaluation: Evaluation, pictures: Mapping[str, Mapping[str, bytes]]) -> str:
@@ -72,10 +64,6 @@ def _grid(table: Table) -> str:
 
 def _text(markdown: str) -> str:
     return escape(markdown.replace("`", "").replace("*", ""))
-
-
-def _line(cells: list[str]) -> str:
-    return f"| {' | '.join(cells)} |"
 
 
 def _source(data: bytes, kind: str) -> str:

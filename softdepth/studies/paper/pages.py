@@ -1,6 +1,6 @@
 """The evaluation as Markdown, and its table for the terminal."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import groupby
 
 from rich.table import Table
@@ -9,6 +9,7 @@ from softdepth.studies.paper import figure4, published
 from softdepth.studies.paper.document import Document, Score
 from softdepth.studies.paper.speed import LANES, TIE, Speeds
 from softdepth.studies.paper.table2 import Row
+from softdepth.templates import render
 
 METRICS_TEXT = (
     "Every map is scored in its own view: all known pixels / non-occluded ones. No result counts as wrong, so"
@@ -88,52 +89,23 @@ def findings(document: Document) -> list[str]:
 
 def markdown(document: Document, level: int = 2) -> str:
     """The whole evaluation; its headings start at `level`."""
-    mark = "#" * level
-    numbers = ["---:"] * len(COLUMNS)
-    parts = [
-        f"{mark} Findings\n",
-        "\n".join(f"- {line}" for line in findings(document)),
-        f"\n{mark} Table 2: the paper's RMSE\n",
-        grid(
-            ["scene", "method", "operator", *COLUMNS],
-            ["---", "---", "---", *numbers],
-            ([r.scene.capitalize(), r.method, operator(r.operator), *figures(r)] for r in document.table2),
-        ),
-        f"\n{mark} The same comparison in one view\n",
-        "Plain SAD in the view, truth, border and drawing of the FMCDM rows above.\n",
-        grid(
-            ["scene", "method", "float", "fixed"],
-            ["---", "---", "---:", "---:"],
-            ([r.scene.capitalize(), r.method, figure(r.float), figure(r.fixed)] for r in document.one_view),
-        ),
-        f"\n{mark} The readings\n",
-        grid(
-            ["", *(f"{key}: {each.name}" for key, each in document.readings.items())],
-            ["---"] * (1 + len(document.readings)),
-            _reading_rows(document),
-        ),
-        f"\n{mark} Standard metrics\n",
-        f"{METRICS_TEXT} Float maps; those in fixed point are in the JSON.\n",
-        grid(
-            ["scene", "method", "operator", "paper's RMSE", "bad-1.0 %", "bad-2.0 %", "MAE px", "RMS px"],
-            ["---", "---", "---", *["---:"] * 5],
-            (score_row(s) for s in document.metrics if s.engine == "float"),
-        ),
-        "\n" + "; ".join(f"{name}: {text}" for name, text in document.opencv.items()) + ".",
-        f"\n{mark} Speed\n",
-        f"{speed_text(document.speed)}\n",
-        grid(
-            ["operator", "float, ns", "fixed, ns", "lanes", "clocks per pixel", "multipliers", "LUTs a lane"],
-            ["---", *["---:"] * 6],
-            speed_rows(document.speed),
-        ),
-    ]
-    return "\n".join(parts)
-
-
-def grid(head: Sequence[str], rule: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table."""
-    return "\n".join(f"| {' | '.join(row)} |" for row in (head, rule, *rows))
+    return render(
+        "softdepth.studies",
+        "paper.md",
+        mark="#" * level,
+        findings=findings(document),
+        columns=list(COLUMNS),
+        table2=[[r.scene.capitalize(), r.method, operator(r.operator), *figures(r)] for r in document.table2],
+        one_view=[
+            [r.scene.capitalize(), r.method, figure(r.float), figure(r.fixed)] for r in document.one_view
+        ],
+        readings=reading_rows(document),
+        metrics_text=METRICS_TEXT,
+        metrics=[score_row(s) for s in document.metrics if s.engine == "float"],
+        opencv=document.opencv,
+        speed_text=speed_text(document.speed),
+        speed=speed_rows(document.speed),
+    )
 
 
 def score_row(score: Score) -> list[str]:
@@ -171,10 +143,12 @@ def speed_rows(speeds: Speeds) -> list[list[str]]:
     ]
 
 
-def _reading_rows(document: Document) -> list[list[str]]:
+def reading_rows(document: Document) -> list[list[str]]:
+    """The readings side by side, the head first."""
+    head = ["", *(f"{key}: {each.name}" for key, each in document.readings.items())]
     keys = dict.fromkeys(key for each in document.readings.values() for key in each.facts)
     rows = [[key, *(r.facts.get(key, "-") for r in document.readings.values())] for key in keys]
-    return [*rows, ["why", *(r.why for r in document.readings.values())]]
+    return [head, *rows, ["why", *(r.why for r in document.readings.values())]]
 
 
 def _rule_lines(document: Document) -> list[str]:

@@ -62,7 +62,3 @@ def test_numbers():
     assert pages.figure(1.005, sign=True) == "+1.00"
     assert pages.figure(-0.126, sign=True) == "-0.13"
     assert (pages.below(12.6), pages.below(-3.2)) == ("13 % below", "3 % above")
-
-
-def test_grid():
-    assert pages.grid(["a", "b"], ["---", "---:"], [["1", "2"]]) == "| a | b |\n| --- | ---: |\n| 1 | 2 |"

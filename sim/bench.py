@@ -11,8 +11,9 @@ from typing import Any
 import cocotb
 import numpy as np
 from cocotb.clock import Clock
+from numpy.typing import NDArray
 
-from softdepth.sim.job import JOB_VARIABLE, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
+from softdepth.sim.job import JOB_VARIABLE, PART_SUFFIX, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
 from softdepth.sim.sides import Sink, Source
 
 CLOCK_STEPS = 2
@@ -24,7 +25,7 @@ REPORT_CLOCKS = 8192
 async def run_job(dut: Any) -> None:
     """Run the job named by the environment and write its record beside it."""
     path = Path(os.environ[JOB_VARIABLE])
-    bench = Bench(dut, Job.load(path), path.with_suffix(PROGRESS_SUFFIX))
+    bench = Bench(dut, Job.load(path), path)
     Clock(dut.clk, CLOCK_STEPS, unit="step").start(start_high=False)
     await bench.run()
     bench.record().save(path.with_suffix(RECORD_SUFFIX))
@@ -33,10 +34,11 @@ async def run_job(dut: Any) -> None:
 class Bench:
     """A run of one job: resets, the two ends of the streams, and when to stop."""
 
-    def __init__(self, dut: Any, job: Job, progress: Path) -> None:
+    def __init__(self, dut: Any, job: Job, path: Path) -> None:
         self.dut = dut
         self.job = job
-        self.progress = progress
+        self.path = path
+        self.parts = 0
         self.source = Source(dut, job)
         self.sink = Sink(dut, job)
         self.resets = sorted(job.resets, reverse=True)
@@ -55,7 +57,11 @@ class Bench:
             self.cycle += 1
             idle += sink.accepting and (source.offered or source.exhausted)
             taken = source.sample(self.cycle)
-            if sink.sample(self.cycle) or taken:
+            if sink.sample(self.cycle):
+                idle = 0
+                if self.parts < len(job.cuts) and len(sink.cycles) == job.cuts[self.parts]:
+                    self._hand_over()
+            elif taken:
                 idle = 0
             if taken or not source.offered:
                 if self.resets and self.resets[-1] <= len(source.taken):
@@ -65,7 +71,7 @@ class Bench:
             sink.drive()
 
             if self.cycle % REPORT_CLOCKS == 0:
-                self.progress.write_text(f"{len(sink.payloads)}\n")
+                self.path.with_suffix(PROGRESS_SUFFIX).write_text(f"{len(sink.cycles)}\n")
             settled += self._has_everything()
             if settled > job.settle or idle > job.patience:
                 self.complete = settled > 0 or job.expected is None
@@ -75,7 +81,7 @@ class Bench:
         """The run so far."""
         sink = self.sink
         return Record(
-            payloads=np.array([int(digits, 2) for digits in sink.payloads], np.uint64),
+            payloads=_numbers(sink.payloads),
             cycles=np.array(sink.cycles, np.int64),
             epochs=np.array(sink.epochs, np.int64),
             taken=np.array(self.source.taken, np.int64),
@@ -85,11 +91,20 @@ class Bench:
             complete=self.complete,
         )
 
+    def _hand_over(self) -> None:
+        """Write the results since the last cut beside the job; the file appears whole."""
+        target = self.path.with_suffix(PART_SUFFIX.format(self.parts))
+        made = target.with_suffix(".part")
+        with made.open("wb") as file:
+            np.save(file, _numbers(self.sink.hand_over()))
+        os.replace(made, target)
+        self.parts += 1
+
     def _has_everything(self) -> bool:
         expected = self.job.expected
         if expected is None or self.resets or not self.source.exhausted:
             return False
-        return len(self.sink.payloads) - self.earlier_results >= expected
+        return len(self.sink.cycles) - self.earlier_results >= expected
 
     async def _reset(self) -> None:
         """Both sides are silent meanwhile, so that nothing is taken at the reset's edges."""
@@ -104,4 +119,8 @@ class Bench:
     def _begin_epoch(self) -> None:
         self.resets.pop()
         self.sink.epoch += 1
-        self.earlier_results = len(self.sink.payloads)
+        self.earlier_results = len(self.sink.cycles)
+
+
+def _numbers(payloads: list[str]) -> NDArray[np.uint64]:
+    return np.array([int(digits, 2) for digits in payloads], np.uint64)

@@ -1,10 +1,11 @@
 """Whole stereo pairs through a simulated core."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softdepth.golden.front.pair import Image, check_pair
 from softdepth.golden.front.views import from_core_view, to_core_view
@@ -25,7 +26,7 @@ class FramesResult:
 
     Members
     -------
-    maps : one for each pair.
+    maps : one for each pair; none where they were handed over one by one.
     stream : the run itself: cycles, status, seconds.
     """
 
@@ -60,6 +61,7 @@ def run_frames(
     stalls: Stalls | None = None,
     gap: int = 0,
     progress: Progress | None = None,
+    handed: Callable[[int, DisparityMap], None] | None = None,
     eof: bool = True,
 ) -> FramesResult:
     """Simulate the core of `config` on stereo pairs (HxWx3 uint8 each), one after the other.
@@ -70,6 +72,8 @@ def run_frames(
     stalls : pauses at both ends; none by default.
     gap : idle clocks between frames.
     progress : called with the number of results so far.
+    handed : called from another thread with each pair's number and map while the next are simulated; the
+        maps are not kept then.
     eof : whether the source marks a frame's last pixel. Without it the core learns the height from two
         frames, and the last one needs it: there must be three at least, of one height.
 
@@ -86,23 +90,37 @@ def run_frames(
     ]
     sizes = [len(frame) for frame in packed]
     starts = list(accumulate(sizes))[:-1] if gap else []
+    ends = tuple(accumulate(sizes))
     job = Job(
         np.concatenate(packed),
         stalls or Stalls(),
         gaps=dict.fromkeys(starts, gap),
-        expected=sum(sizes),
+        cuts=ends if handed else (),
+        expected=ends[-1],
     )
-    stream = run_stream(verilog, job, progress=progress)
-    _check_run(stream, job)
-    frames = split_frames(unpack_results(stream.payloads, config))
     shapes = [left.shape[:2] for left, _ in pairs]
+
+    def hand_over(number: int, payloads: NDArray[np.uint64]) -> None:
+        assert handed is not None
+        handed(number, _maps(payloads, config, shapes[number : number + 1], number)[0])
+
+    stream = run_stream(verilog, job, progress=progress, parts=hand_over if handed else None)
+    _check_run(stream, job)
+    return FramesResult([] if handed else _maps(stream.payloads, config, shapes), stream)
+
+
+def _maps(
+    payloads: NDArray[np.uint64], config: Config, shapes: list[tuple[int, ...]], first: int = 0
+) -> list[DisparityMap]:
+    """The maps of frames of `shapes`, in the user's view; raises `ToolError` for others, or damaged ones."""
+    frames = split_frames(unpack_results(payloads, config))
     if [frame.shape for frame in frames] != shapes:
         shown = [frame.shape for frame in frames]
         raise _fault(f"frames of {shown} came out where {shapes} went in", "sequencer (markers)")
-    for number, frame in enumerate(frames):
+    for number, frame in enumerate(frames, first):
         if frame["damaged"].any():
             raise _fault(f"frame {number} went in sound and came out marked as damaged", "frame guard")
-    return FramesResult([from_core_view(found, config) for found in to_maps(frames, config)], stream)
+    return [from_core_view(found, config) for found in to_maps(frames, config)]
 
 
 def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
@@ -135,13 +153,13 @@ def _check_run(stream: StreamResult, job: Job) -> None:
     if not stream.complete:
         taken_all = len(stream.taken) == len(job.transfers)
         raise _fault(
-            f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.payloads)} of"
+            f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.cycles)} of"
             f" {job.expected} results, and then nothing for {job.patience} clocks",
             # A result that is lost keeps its place in the FIFO: pixels are not admitted in the end.
             "results or sequencer" if taken_all else "results, sequencer or frame guard",
         )
-    if len(stream.payloads) != job.expected:
-        raise _fault(f"it gave {len(stream.payloads)} results where {job.expected} were due", "sequencer")
+    if len(stream.cycles) != job.expected:
+        raise _fault(f"it gave {len(stream.cycles)} results where {job.expected} were due", "sequencer")
 
 
 def _fault(problem: str, stage: str) -> ToolError:

@@ -17,6 +17,8 @@ JOB_VARIABLE = "SOFTDEPTH_SIM_JOB"
 
 PROGRESS_SUFFIX = ".progress"
 RECORD_SUFFIX = ".record.npz"
+PART_SUFFIX = ".part{}.npy"
+"""Of the results between two of a job's cuts, numbered from 0."""
 
 
 class Violation(NamedTuple):
@@ -36,6 +38,8 @@ class Job:
     stalls : of the source and the sink.
     resets : the core is reset when this many transfers have been taken.
     gaps : idle clocks of the source, by the number of transfers taken before them.
+    cuts : numbers of results, rising, at which those since the last cut are handed over at once, while the
+        run goes on. They are not in its record.
     expected : results since the last reset after which the run is complete, or None: run until quiet.
     settle : clocks that a complete run goes on, to catch surplus results.
     patience : clocks without any transfer, though both sides are willing, after which the run stops.
@@ -45,6 +49,7 @@ class Job:
     stalls: Stalls = field(default_factory=Stalls)
     resets: tuple[int, ...] = ()
     gaps: Mapping[int, int] = field(default_factory=dict)
+    cuts: tuple[int, ...] = ()
     expected: int | None = None
     settle: int = 500
     patience: int = 20_000
@@ -55,6 +60,7 @@ class Job:
             "stalls": asdict(self.stalls),
             "resets": self.resets,
             "gaps": list(self.gaps.items()),
+            "cuts": self.cuts,
             "expected": self.expected,
             "settle": self.settle,
             "patience": self.patience,
@@ -76,7 +82,7 @@ class Job:
             transfers = np.array([int(word) for word in transfers], object)
         stalls = Stalls(**{side: Pauses(**pauses) for side, pauses in plain.pop("stalls").items()})
         resets, gaps = tuple(plain.pop("resets")), dict(plain.pop("gaps"))
-        return cls(transfers, stalls, resets, gaps, **plain)
+        return cls(transfers, stalls, resets, gaps, tuple(plain.pop("cuts")), **plain)
 
 
 @dataclass(frozen=True)
@@ -85,7 +91,8 @@ class Record:
 
     Members
     -------
-    payloads, cycles : of each result, the packed value and the clock that took it.
+    payloads : the packed value of each result; after the job's last cut, where it has cuts.
+    cycles : of each result, the clock that took it.
     epochs : of each result, how many of the job's resets came before it.
     taken : the clock at which the core took each transfer.
     status : the packed status port at the end.

@@ -5,6 +5,7 @@ edge, then `drive`, whose writes take effect after it. Signals are written only 
 each write costs an evaluation of the design.
 """
 
+from array import array
 from collections.abc import Iterator
 from typing import Any
 
@@ -25,11 +26,11 @@ class Source:
 
     def __init__(self, dut: Any, job: Job) -> None:
         self._valid, self._ready, self._payload = dut.i_valid, dut.i_ready, dut.i_payload
-        self._transfers: list[int] = job.transfers.tolist()
+        self._transfers = job.transfers
         self._gaps = dict(job.gaps)
         self._gap = 0
         self._paused = _paused_clocks(job.stalls.input)
-        self.taken: list[int] = []
+        self.taken = array("q")
         self.offered = False
 
     @property
@@ -53,7 +54,7 @@ class Source:
         """Unless an offer stands, make the next, or pause."""
         was_offered, self.offered = self.offered, not self.exhausted and not self._pauses()
         if self.offered:
-            self._payload.value = self._transfers[len(self.taken)]
+            self._payload.value = int(self._transfers[len(self.taken)])
         if self.offered != was_offered:
             self._valid.value = self.offered
 
@@ -70,7 +71,7 @@ class Sink:
 
     Members
     -------
-    payloads : packed results so far, as the simulator's binary digits.
+    payloads : packed results so far, as the simulator's binary digits; since the last `hand_over`.
     cycles, epochs : the clock of each, and the value of `epoch` then.
     violations : broken rules.
     accepting : whether a result would be taken at the next edge.
@@ -81,8 +82,7 @@ class Sink:
         self._paused = _paused_clocks(job.stalls.output)
         self._held: str | None = None
         self.payloads: list[str] = []
-        self.cycles: list[int] = []
-        self.epochs: list[int] = []
+        self.cycles, self.epochs = array("q"), array("q")
         self.violations: list[Violation] = []
         self.accepting = False
         self.epoch = 0
@@ -111,6 +111,11 @@ class Sink:
         self.cycles.append(cycle)
         self.epochs.append(self.epoch)
         return True
+
+    def hand_over(self) -> list[str]:
+        """The results since the last time, which are kept no longer."""
+        given, self.payloads = self.payloads, []
+        return given
 
     def drive(self) -> None:
         """Accept, or pause."""

@@ -9,15 +9,20 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from cocotb_tools.runner import get_runner
+from numpy.typing import NDArray
 
 from softdepth.files import move_in
 from softdepth.sim.build import TOP, build
-from softdepth.sim.job import JOB_VARIABLE, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
+from softdepth.sim.job import JOB_VARIABLE, PART_SUFFIX, PROGRESS_SUFFIX, RECORD_SUFFIX, Job, Record
 from softdepth.spec.errors import ToolError
 
 Progress = Callable[[int], None]
 """Called now and then, from another thread, with the number of results so far."""
+
+Parts = Callable[[int, NDArray[np.uint64]], None]
+"""Called from another thread with the payloads up to each of the job's cuts, and its number, in turn."""
 
 POLL_SECONDS = 0.2
 
@@ -43,11 +48,16 @@ class StreamResult(Record):
 
 
 def run_stream(
-    verilog: str, job: Job, *, progress: Progress | None = None, waves: Path | None = None
+    verilog: str,
+    job: Job,
+    *,
+    progress: Progress | None = None,
+    parts: Parts | None = None,
+    waves: Path | None = None,
 ) -> StreamResult:
     """Build `verilog` (or take it from the cache) and run `job`.
 
-    `waves` names a VCD file to write. Raises `ToolError` for a missing tool, a failed build or a
+    `waves` names a VCD file to write. What `parts` raises is raised when the run has ended. Raises `ToolError` for a missing tool, a failed build or a
     simulator that stops without a record. A run that is not complete, or that broke a stream rule, is
     a result like any other: see `Record`.
     """
@@ -58,7 +68,7 @@ def run_stream(
     try:
         job.save(path)
         start = time.monotonic()
-        with _reports(path.with_suffix(PROGRESS_SUFFIX), progress):
+        with _reports(path, progress, parts):
             ended = simulate(
                 program.folder, "softdepth.sim.bench", folder, {JOB_VARIABLE: str(path)}, waves is not None
             )
@@ -107,19 +117,34 @@ def simulate(
 
 
 @contextmanager
-def _reports(path: Path, progress: Progress | None) -> Iterator[None]:
-    """Pass the bench's progress on for as long as the body runs."""
-    if progress is None:
+def _reports(job: Path, progress: Progress | None, parts: Parts | None) -> Iterator[None]:
+    """Pass the bench's progress and parts on for as long as the body runs; the last parts after it."""
+    if progress is None and parts is None:
         yield
         return
     ended = threading.Event()
+    handed = 0
+    failures: list[Exception] = []
+
+    def pass_on() -> None:
+        nonlocal handed
+        while parts and not failures and (file := job.with_suffix(PART_SUFFIX.format(handed))).exists():
+            try:
+                parts(handed, np.load(file))
+            except Exception as error:  # raised again where the run ends
+                failures.append(error)
+            file.unlink()
+            handed += 1
 
     def watch() -> None:
         while not ended.wait(POLL_SECONDS):
+            pass_on()
             try:
-                progress(int(path.read_text()))
+                done = int(job.with_suffix(PROGRESS_SUFFIX).read_text())
             except (OSError, ValueError):
                 continue  # not there yet, or half written
+            if progress:
+                progress(done)
 
     watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
@@ -128,6 +153,9 @@ def _reports(path: Path, progress: Progress | None) -> Iterator[None]:
     finally:
         ended.set()
         watcher.join()
+    pass_on()
+    if failures:
+        raise failures[0]
 
 
 def _reason(log: Path) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softdepth.golden import fixed_model
+from softdepth.golden.maps import DisparityMap
 from softdepth.sim.compare import mismatches
 from softdepth.sim.frames import run_frames
 from softdepth.sim.stalls import Pauses, Stalls
@@ -34,6 +35,29 @@ def test_maps_are_in_the_users_view(
     for (left, right), found in zip(pairs, result.maps, strict=True):
         other = model(config, left, right) if reference == "left" else model(config, right, left)
         assert np.array_equal(found.disparity, other)
+
+
+def test_maps_are_handed_over_while_the_session_goes_on(
+    config: Config, stand_in: DesignOf, model: Callable
+) -> None:
+    pairs = pairs_of((9, 12), (8, 20), (9, 12))
+    came: list[tuple[int, DisparityMap]] = []
+    result = run_frames(
+        config, pairs, verilog=stand_in(), handed=lambda number, found: came.append((number, found))
+    )
+    assert result.maps == []
+    assert result.stream.clocks > 0
+    assert [number for number, _ in came] == [0, 1, 2]
+    for (left, right), (_, found) in zip(pairs, came, strict=True):
+        assert np.array_equal(found.disparity, model(config, left, right))
+
+
+def test_what_fails_at_a_map_fails_the_run(config: Config, stand_in: DesignOf) -> None:
+    def refuse(number: int, found: DisparityMap) -> None:
+        raise InputError(f"no frame {number}", "none")
+
+    with pytest.raises(InputError, match="no frame 0"):
+        run_frames(config, pairs_of((9, 12), (9, 12)), verilog=stand_in(), handed=refuse)
 
 
 def test_measures_the_core_and_not_its_filling(config: Config, stand_in: DesignOf) -> None:

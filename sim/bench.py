@@ -5,6 +5,7 @@ most of the time.
 """
 
 import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,7 @@ class Bench:
         self.job = job
         self.path = path
         self.parts = 0
+        self.clock = time.perf_counter()
         self.source = Source(dut, job)
         self.sink = Sink(dut, job)
         self.resets = sorted(job.resets, reverse=True)
@@ -96,8 +98,9 @@ class Bench:
         target = self.path.with_suffix(PART_SUFFIX.format(self.parts))
         made = target.with_suffix(".part")
         with made.open("wb") as file:
-            np.save(file, _numbers(self.sink.hand_over()))
+            np.savez(file, payloads=_numbers(self.sink.hand_over()), seconds=time.perf_counter() - self.clock)
         os.replace(made, target)
+        self.clock = time.perf_counter()
         self.parts += 1
 
     def _has_everything(self) -> bool:

@@ -61,7 +61,7 @@ def run_frames(
     stalls: Stalls | None = None,
     gap: int = 0,
     progress: Progress | None = None,
-    handed: Callable[[int, DisparityMap], None] | None = None,
+    handed: Callable[[int, DisparityMap, float], None] | None = None,
     eof: bool = True,
 ) -> FramesResult:
     """Simulate the core of `config` on stereo pairs (HxWx3 uint8 each), one after the other.
@@ -72,8 +72,8 @@ def run_frames(
     stalls : pauses at both ends; none by default.
     gap : idle clocks between frames.
     progress : called with the number of results so far.
-    handed : called from another thread with each pair's number and map while the next are simulated; the
-        maps are not kept then.
+    handed : called from another thread with each pair's number, map and seconds of simulation while the next
+        are simulated; the maps are not kept then.
     eof : whether the source marks a frame's last pixel. Without it the core learns the height from two
         frames, and the last one needs it: there must be three at least, of one height.
 
@@ -100,9 +100,9 @@ def run_frames(
     )
     shapes = [left.shape[:2] for left, _ in pairs]
 
-    def hand_over(number: int, payloads: NDArray[np.uint64]) -> None:
+    def hand_over(number: int, payloads: NDArray[np.uint64], seconds: float) -> None:
         assert handed is not None
-        handed(number, _maps(payloads, config, shapes[number : number + 1], number)[0])
+        handed(number, _maps(payloads, config, shapes[number : number + 1], number)[0], seconds)
 
     stream = run_stream(verilog, job, progress=progress, parts=hand_over if handed else None)
     _check_run(stream, job)

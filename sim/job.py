@@ -17,8 +17,8 @@ JOB_VARIABLE = "SOFTDEPTH_SIM_JOB"
 
 PROGRESS_SUFFIX = ".progress"
 RECORD_SUFFIX = ".record.npz"
-PART_SUFFIX = ".part{}.npy"
-"""Of the results between two of a job's cuts, numbered from 0."""
+PART_SUFFIX = ".part{}.npz"
+"""Of the results between two of a job's cuts, numbered from 0, and the seconds that they took."""
 
 
 class Violation(NamedTuple):

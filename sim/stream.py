@@ -21,8 +21,8 @@ from softdepth.spec.errors import ToolError
 Progress = Callable[[int], None]
 """Called now and then, from another thread, with the number of results so far."""
 
-Parts = Callable[[int, NDArray[np.uint64]], None]
-"""Called from another thread with the payloads up to each of the job's cuts, and its number, in turn."""
+Parts = Callable[[int, NDArray[np.uint64], float], None]
+"""Called from another thread at each of the job's cuts, in turn: number, payloads up to it, their seconds."""
 
 POLL_SECONDS = 0.2
 
@@ -57,9 +57,9 @@ def run_stream(
 ) -> StreamResult:
     """Build `verilog` (or take it from the cache) and run `job`.
 
-    `waves` names a VCD file to write. What `parts` raises is raised when the run has ended. Raises `ToolError` for a missing tool, a failed build or a
-    simulator that stops without a record. A run that is not complete, or that broke a stream rule, is
-    a result like any other: see `Record`.
+    `waves` names a VCD file to write. What `parts` raises is raised when the run has ended. Raises
+    `ToolError` for a missing tool, a failed build or a simulator that stops without a record. A run that is
+    not complete, or that broke a stream rule, is a result like any other: see `Record`.
     """
     program = build(verilog, waves=waves is not None)
     folder = Path(tempfile.mkdtemp(prefix="softdepth-sim-"))
@@ -130,7 +130,8 @@ def _reports(job: Path, progress: Progress | None, parts: Parts | None) -> Itera
         nonlocal handed
         while parts and not failures and (file := job.with_suffix(PART_SUFFIX.format(handed))).exists():
             try:
-                parts(handed, np.load(file))
+                with np.load(file) as part:
+                    parts(handed, part["payloads"], float(part["seconds"]))
             except Exception as error:  # raised again where the run ends
                 failures.append(error)
             file.unlink()

@@ -15,6 +15,9 @@ from softdepth.spec.errors import InputError
 LAST = "report.json"
 """A run's file that is moved in last: where it lies, all the rest lies too."""
 
+UNFINISHED = ".softdepth-"
+"""What the names of folders that are being filled begin with."""
+
 MAX_LINKS = 40
 """How many links may follow each other, as in Linux."""
 
@@ -164,13 +167,47 @@ def result_folder(target: Path, stale: tuple[str, ...] = (), last: str = LAST) -
                 _remove_if_empty(folder)
 
 
+@contextmanager
+def whole_folder(target: Path) -> Iterator[Path]:
+    """Give a temporary folder that becomes `target` when the block ends well: whole, or not at all.
+
+    A folder that was there is replaced. Beside `target`, whose parent must exist, an interrupted process may
+    leave a name that begins with `UNFINISHED`; `clear_unfinished` removes such.
+    """
+    try:
+        workplace = Path(tempfile.mkdtemp(dir=target.parent, prefix=UNFINISHED))
+    except OSError as error:
+        raise _unwritable(target, error) from error
+    try:
+        yield workplace
+        workplace.chmod(0o777 & ~_umask())  # mkdtemp keeps others out
+        if target.exists():
+            target.rename(workplace.with_name(f"{workplace.name}-old"))
+        workplace.rename(target)
+    finally:
+        shutil.rmtree(workplace, ignore_errors=True)
+        shutil.rmtree(workplace.with_name(f"{workplace.name}-old"), ignore_errors=True)
+
+
+def clear_unfinished(folder: Path) -> None:
+    """Remove what an interrupted `whole_folder` has left in a folder."""
+    for path in folder.glob(f"{UNFINISHED}*"):
+        shutil.rmtree(path, ignore_errors=True)
+
+
+def _umask() -> int:
+    current = os.umask(0)
+    os.umask(current)
+    return current
+
+
 def _open(target: Path) -> Path:
     try:
         target.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=target):
             pass
         # In the target, which may be a link or a disk of its own: so moving in is renaming.
-        return Path(tempfile.mkdtemp(dir=target, prefix=".softdepth-"))
+        return Path(tempfile.mkdtemp(dir=target, prefix=UNFINISHED))
     except OSError as error:
         raise _unwritable(target, error) from error
 

@@ -16,6 +16,8 @@ BUILDS_ON: dict[str, tuple[str, ...]] = {
     "golden": ("spec",),
     "hdl": ("spec",),
     "sim": ("golden", "hdl"),
+    "rig": ("golden",),
+    "metric": ("rig",),
     "flow": ("hdl",),
     "studies.paper": ("golden",),
 }

@@ -24,6 +24,7 @@ from softdepth.cli import (
     rectify,
     ros,
     run,
+    sequence,
     utilization,
     view,
 )
@@ -37,6 +38,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command("run")(run.run)
+app.command("sequence")(sequence.sequence)
 app.command("view")(view.view)
 app.command("ros")(ros.ros)
 app.command("inspect")(inspect.inspect)

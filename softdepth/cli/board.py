@@ -1,14 +1,16 @@
 """``softdepth board``: a stereo pair to depth on an FPGA board, measured."""
 
+import os
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from softdepth import screen
-from softdepth.cli import options, pairs, run
+from softdepth.cli import calibrations, metres, options, pairs, run, sequences
 from softdepth.cli.bundle import bundled
 from softdepth.spec.boards import BOARDS, find_board
+from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 
 DEFAULT_BOARD = "ulx3s-85f"
@@ -29,11 +31,13 @@ def board(
         float,
         typer.Option("--timeout", metavar="S", help="Seconds without an answer before packets are repeated."),
     ] = 0.5,
+    processes: sequences.Processes = None,
+    fps: sequences.Rate = None,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of pictures, maps and report.")
     ] = Path("out"),
 ) -> None:
-    """Compute the depth of a stereo pair on a board, and compare it with the models.
+    """Compute the depth of a stereo pair or a sequence on a board, and compare it with the models.
 
     The configuration is the board's; where one is given, the board has to hold it.
     """
@@ -56,6 +60,10 @@ def board(
             device.check(wanted)
         chosen = found.config
         screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
+        if source.is_sequence:
+            how = sequences.How("board", processes or os.cpu_count() or 1, fps, device)
+            _sequence(source, chosen, how, output)
+            return
         pair = source.read(chosen)
         measure.check_fits(pair, chosen, built=True)
         with results.result_folder(output, stale=report.FILES) as folder:
@@ -65,3 +73,15 @@ def board(
     report.show(summary)
     print(f"results: {output}")
     run.fail_on_mismatch(pair, chosen, measurement)
+
+
+def _sequence(source: pairs.Source, config: Config, how: sequences.How, output: Path) -> None:
+    """A sequence through a core that is there already."""
+    if source.dataset is not None or source.left is None:
+        raise InputError(f"--dataset {source.dataset} beside a sequence", "leave one of them out")
+    given = sequences.Given(
+        source.left, source.right, source.joined, source.bits, source.truth, source.truth_scale
+    )
+    plan = sequences.Plan("", given, metres.Cameras(), calibrations.Raw(), output)
+    ready = sequences.prepare(plan, None, metres.Kept(), how, config)
+    sequences.fail_on_mismatch(sequences.run(ready, how))

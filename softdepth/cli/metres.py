@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from softdepth.rig.rectify import Rectifier
     from softdepth.spec.config import Config
 
-FILES = ("depth.png", "depth.tiff", "depth.pfm", "cloud.ply", "cloud.npz", "view.html")
+FILES = ("depth.png", "depth.tiff", "depth.pfm", "cloud.ply", "cloud.npz", "uncertainty.tiff", "view.html")
 """What a run writes besides where the cameras are known."""
 
 
@@ -32,11 +32,23 @@ class Kept:
     min_confidence: Annotated[
         int, typer.Option("--min-confidence", metavar="N", help="Depth of results this sure only, 0 to 255.")
     ] = 0
+    disparity_error: Annotated[
+        float | None,
+        typer.Option(
+            "--disparity-error",
+            metavar="PX",
+            help="Standard error of a disparity: writes that of each depth, in metres (uncertainty.tiff).",
+        ),
+    ] = None
 
     def choice(self) -> "Choice":
-        """As the models take it; raises `InputError` for a confidence that there cannot be."""
+        """As the models take it; raises `InputError` for a confidence or an error that there cannot be."""
         from softdepth.metric.scene import Choice
 
+        if self.disparity_error is not None and not 0 < self.disparity_error < float("inf"):
+            raise InputError(
+                f"--disparity-error {self.disparity_error:g} is no error", "give pixels, for example 0.25"
+            )
         return Choice(self.measured_only, self.min_confidence)
 
 
@@ -197,16 +209,13 @@ def write(
 ) -> None:
     """Write every one of `FILES` into a folder."""
     from softdepth.files import write_atomically
-    from softdepth.metric import writers
+    from softdepth.metric import output
     from softdepth.view.page import page
 
     scene = scene_of(found, geometry, kept, pair)
-    if beyond := writers.write_depth_png(folder / "depth.png", scene.depth):
-        screen.note(f"depth.png: {beyond} pixels beyond 65.5 m have no depth there; depth.tiff has them")
-    writers.write_depth_tiff(folder / "depth.tiff", scene.depth)
-    writers.write_depth_pfm(folder / "depth.pfm", scene.depth)
-    points = writers.write_ply(folder / "cloud.ply", scene)
-    writers.write_npz(folder / "cloud.npz", scene)
+    points, notes = output.write(folder, scene, kept.disparity_error)
+    for text in notes:
+        screen.note(text)
     text = page(pair.name, scene, found.confidence, facts(scene, pair, config))
     write_atomically(folder / "view.html", text.encode())
     screen.note(f"{points:,} points in cloud.ply; view.html shows them")

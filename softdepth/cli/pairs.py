@@ -51,6 +51,20 @@ class Source:
         bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
     ] = False
 
+    @property
+    def is_sequence(self) -> bool:
+        """Whether the files stand for more than one pair."""
+        from softdepth.sequence.names import is_sequence
+
+        return is_sequence(self.left) or is_sequence(self.right)
+
+    @property
+    def joined(self) -> "Joined | None":
+        """How both views lie in one file, if they do; raises `InputError` for two answers."""
+        if self.side_by_side and self.top_bottom:
+            raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
+        return "side-by-side" if self.side_by_side else "top-bottom" if self.top_bottom else None
+
     def read(self, config: Config) -> "StereoPair":
         """The pair, in the core's pixels; its notes go to the screen.
 
@@ -59,10 +73,12 @@ class Source:
         scale, truth = self.truth_scale, self.truth
         if scale is not None and truth is None:
             raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
-        if self.side_by_side and self.top_bottom:
-            raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
+        joined = self.joined
         if self.dataset is None:
-            joined = "side-by-side" if self.side_by_side else "top-bottom" if self.top_bottom else None
+            if self.is_sequence:
+                raise InputError(
+                    f"'{self.left}' and '{self.right}' are not two images", "use softdepth sequence for more"
+                )
             pair = _images(self.left, self.right, joined, self.bits)
             if truth is not None:
                 pair = _with_truth(pair, (self.left, self.right), truth, scale, config)

@@ -15,6 +15,10 @@ class SoftdepthError(Exception):
         self.remedy = " ".join(remedy.split())
         super().__init__(f"{self.problem}; {self.remedy}")
 
+    def __reduce__(self) -> tuple[type["SoftdepthError"], tuple[str, str]]:
+        """How it comes out of another process: by default Python would give its text alone to `__init__`."""
+        return type(self), (self.problem, self.remedy)
+
 
 class ConfigError(SoftdepthError):
     """A configuration that cannot be built: unknown preset or key, or values that contradict."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import stat
 from pathlib import Path
 
@@ -173,6 +174,31 @@ def test_a_port_that_goes_away_before_the_first_packet():
             with pytest.raises(ToolError, match="was unplugged or switched off"):
                 use()
     os.close(slave)
+
+
+def test_a_sequence_through_a_board(config, files, softdepth, tmp_path):
+    for side, path in (("left", files.left), ("right", files.right)):
+        (tmp_path / side).mkdir()
+        for k in range(3):
+            shutil.copy(path, tmp_path / side / f"{k}.png")
+    out = tmp_path / "out"
+    with plugged_in(config) as board:
+        command = ("board", "--port", board.path, tmp_path / "left", tmp_path / "right", "--processes", 1)
+        outcome = softdepth(*command, "-o", out)
+        assert outcome.code == 0, outcome.err
+        again = softdepth(*command, "-o", out)
+        assert "3 of them from an earlier run" in again.out
+        refused = softdepth(*command, "--dataset", "motorcycle", "-o", out)
+        assert "beside a sequence" in refused.error
+    assert "frames a second, there and back" in outcome.out
+    assert "gateware against fixed model: 0 mismatches" in outcome.out
+    summary = json.loads((out / "sequence.json").read_text())
+    assert (summary["engine"], summary["config_hash"]) == ("board", config.hash)
+    shown = read_pair(files.left, files.right)
+    expected = fixed_model.disparity(shown.left, shown.right, config)
+    for k in range(3):
+        written = cv2.imread(str(out / "frames" / str(k) / "disparity.png"), cv2.IMREAD_UNCHANGED)
+        assert np.array_equal(written, np.where(expected.valid, np.maximum(expected.disparity * 256, 1), 0))
 
 
 def test_the_command_takes_the_boards_configuration(config, files, softdepth, tmp_path):

@@ -24,6 +24,8 @@ def test_run_writes_metres(softdepth, files: Files, tmp_path):
         2,
         "--engine",
         "fixed",
+        "--disparity-error",
+        0.5,
         "-o",
         tmp_path / "o",
     )
@@ -34,6 +36,8 @@ def test_run_writes_metres(softdepth, files: Files, tmp_path):
     known = np.isfinite(disparity)
     np.testing.assert_array_equal(np.isfinite(depth), known)
     np.testing.assert_allclose(depth[known], 50 / (disparity[known] + 2), rtol=1e-6)
+    spread = cv2.imread(str(tmp_path / "o" / "uncertainty.tiff"), cv2.IMREAD_UNCHANGED)
+    np.testing.assert_allclose(spread[known], depth[known] ** 2 / 50 * 0.5, rtol=1e-6)
     assert len(PlyData.read(tmp_path / "o" / "cloud.ply")["vertex"]) == known.sum()
 
 

@@ -26,6 +26,7 @@ PERMITTED: dict[str, set[str]] = {
     "view": {"metric", "rig", "golden", "spec", "files", "templates"},
     "board": {"golden", "spec"},
     "run": {"board", "golden", "sim", "spec", *BASE},
+    "sequence": {"board", "metric", "rig", "run", "golden", "sim", "spec", *BASE},
     "studies": {"export", "inspect", "run", "sim", "flow", "golden", "hdl", "spec", *BASE},
     "caches": set(),
     "ending": {"caches", "spec", "softdepth"},

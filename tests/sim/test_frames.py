@@ -43,7 +43,7 @@ def test_maps_are_handed_over_while_the_session_goes_on(
     pairs = pairs_of((9, 12), (8, 20), (9, 12))
     came: list[tuple[int, DisparityMap]] = []
     result = run_frames(
-        config, pairs, verilog=stand_in(), handed=lambda number, found: came.append((number, found))
+        config, pairs, verilog=stand_in(), handed=lambda number, found, _: came.append((number, found))
     )
     assert result.maps == []
     assert result.stream.clocks > 0
@@ -53,7 +53,7 @@ def test_maps_are_handed_over_while_the_session_goes_on(
 
 
 def test_what_fails_at_a_map_fails_the_run(config: Config, stand_in: DesignOf) -> None:
-    def refuse(number: int, found: DisparityMap) -> None:
+    def refuse(number: int, found: DisparityMap, seconds: float) -> None:
         raise InputError(f"no frame {number}", "none")
 
     with pytest.raises(InputError, match="no frame 0"):

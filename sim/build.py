@@ -5,6 +5,7 @@ costs several times the speed, so that this module calls Verilator itself and sh
 ports alone.
 """
 
+import errno
 import hashlib
 import os
 import shutil
@@ -12,7 +13,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -39,6 +41,9 @@ VERILATOR_FLAGS = (
     *("-Wno-lint", "-Wno-style"),
 )
 MAKE_FLAGS = ("OPT_FAST=-Og", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
+
+LEAST_ROOM = 1 << 20
+"""Bytes: a disk on which a failed build has left less was full."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,8 @@ def build(
     with build_cache.locked(folder):
         cached = (folder / TOP).exists()
         if not cached:
-            _build(verilog, ports, flags, tools, folder, runtime)
+            with _room():
+                _build(verilog, ports, flags, tools, folder, runtime)
     if not cached:
         build_cache.make_room(folder.parent)
     return Build(folder, cached, time.monotonic() - start)
@@ -104,6 +110,19 @@ def _build(
         build_cache.keep(folder, [objects / TOP])
 
 
+@contextmanager
+def _room() -> Iterator[None]:
+    """Tell where a build is made and kept, when the system does not let it be written."""
+    try:
+        yield
+    except OSError as error:
+        raise ToolError(
+            f"the simulation cannot be kept in '{cache_folder()}', or made in '{tempfile.gettempdir()}':"
+            f" {(error.strerror or str(error)).lower()}",
+            "make room there, or set SOFTDEPTH_CACHE and TMPDIR to other folders",
+        ) from error
+
+
 def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: TextIO) -> None:
     log.write(f"$ {' '.join(map(str, command))}\n")
     log.flush()
@@ -117,8 +136,10 @@ def _run(command: Sequence[str | Path], folder: Path, tools: Toolchain, log: Tex
         check=False,
     )
     if done.returncode:
-        errors = [line for line in Path(log.name).read_text().splitlines() if "rror" in line]
-        reason = errors[0] if errors else f"exit status {done.returncode}"
+        said = Path(log.name).read_text(errors="replace").splitlines()
+        reason = next((line for line in said if "rror" in line), f"exit status {done.returncode}")
+        if shutil.disk_usage(folder).free < LEAST_ROOM:  # few programs say so
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         raise ToolError(f"building the simulation failed: {reason}", f"see {log.name}")
 
 

@@ -4,7 +4,7 @@ import errno
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -127,8 +127,8 @@ def move_in(source: Path, target: Path) -> None:
     source.unlink(missing_ok=True)
 
 
-def refuse_to_replace(target: Path, names: Sequence[str], inputs: Iterable[Path]) -> None:
-    """Raise `InputError` where a file that is to be written into `target` is one that is read."""
+def refuse_to_replace(target: Path, names: Iterable[str], inputs: Iterable[Path]) -> None:
+    """Raise `InputError` where a file that is written or removed in `target` is one that is read."""
     read = {path.resolve(): path for path in inputs}
     for name in names:
         if path := read.get((target / name).resolve()):

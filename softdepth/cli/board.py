@@ -53,6 +53,7 @@ def board(
     from softdepth.board.port import Port
     from softdepth.run import measure, report
 
+    source.keep_safe(output, (*report.FILES, results.LAST), choice.config)
     with Port(port, rate) as line:
         device = Device(Link(line, timeout))
         found = device.description

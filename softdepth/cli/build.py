@@ -11,6 +11,7 @@ from rich.table import Table
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.cli.bundle import bundled
+from softdepth.files import refuse_to_replace
 from softdepth.spec.boards import BOARDS, Board, find_board
 from softdepth.spec.errors import InputError, ToolError
 
@@ -44,6 +45,7 @@ def build(
     folder = output or Path("out") / chosen_board.name
     from softdepth.flow import bitstream
 
+    refuse_to_replace(folder, (*bitstream.FILES, bitstream.MANIFEST), filter(None, [choice.config]))
     manifest = bitstream.build(chosen_board, chosen, folder, seed=seed)
     _show(manifest)
     print(f"bitstream: {folder / manifest.bitstream}")

@@ -28,6 +28,7 @@ def compare(
     from softdepth.studies.compare import comparison, sweep
 
     sweep.check_sweepable(sweepable)
+    source.keep_safe(output, (*comparison.FILES, comparison.LAST), choice.config)
     pair, chosen = source.read_for(choice)
     with results.result_folder(output, stale=comparison.FILES, last=comparison.LAST) as folder:
         measurement = measure.measure(pair, chosen, engine, also=measure.COMPARED)

@@ -35,7 +35,7 @@ def export(
     chosen = choice.configuration()
     on_screen = str(output) == "-"
     from softdepth.export.core_file import check_export, export_core
-    from softdepth.files import check_writable, is_replaced, write_atomically
+    from softdepth.files import check_writable, is_replaced, refuse_to_replace, write_atomically
 
     description = output.with_suffix(DESCRIPTION) if not on_screen and is_replaced(output) else None
     if not on_screen:
@@ -43,6 +43,7 @@ def export(
             raise InputError(f"'{output}' is named as the core's description", "name it core.v, or the like")
         for target in filter(None, (output, description)):
             check_writable(target)
+            refuse_to_replace(target.parent, [target.name], filter(None, [choice.config]))
     check_export(chosen, name)
     exported = export_core(chosen, name)
     if on_screen:

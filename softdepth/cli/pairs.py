@@ -1,5 +1,6 @@
 """The options by which a command takes its stereo pair: two files, or a data set's name."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,6 +9,7 @@ import typer
 
 from softdepth import screen
 from softdepth.cli import options
+from softdepth.files import refuse_to_replace
 from softdepth.run import measure
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -64,6 +66,11 @@ class Source:
         if self.side_by_side and self.top_bottom:
             raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
         return "side-by-side" if self.side_by_side else "top-bottom" if self.top_bottom else None
+
+    def keep_safe(self, output: Path, names: Iterable[str], *others: Path | None) -> None:
+        """Raise `InputError` where a file of `names` in `output` is one of the pair's, or of the others."""
+        inputs = (self.left, self.right, self.truth, *others)
+        refuse_to_replace(output, names, [path for path in inputs if path is not None])
 
     def read(self, config: Config) -> "StereoPair":
         """The pair, in the core's pixels; its notes go to the screen.

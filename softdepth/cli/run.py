@@ -51,11 +51,14 @@ def run(
     from softdepth.run import measure, report
 
     raw.check(source.dataset, output)
+    left = calibrations.stale(output, cameras.calibration or [])
+    stale = (*report.FILES, *metres.FILES, *left)
+    source.keep_safe(
+        output, (*stale, results.LAST), choice.config, *(raw.rectify or ()), *(cameras.calibration or ())
+    )
     pair, chosen = source.read_for(choice)
     pair, geometry, rectifier = metres.prepare(pair, cameras, raw)
     inspect.note(pair, chosen)
-    left = calibrations.stale(output, cameras.calibration or [])
-    stale = (*report.FILES, *metres.FILES, *left)
     with results.result_folder(output, stale=stale) as folder:
         measurement = measure.measure(pair, chosen, engine, also=further)
         summary = report.summarise(pair, chosen, measurement)

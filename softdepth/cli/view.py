@@ -28,6 +28,8 @@ def view(
     from softdepth.view.page import page
 
     raw.check(source.dataset)
+    calibrated = (*(raw.rectify or ()), *(cameras.calibration or ()))
+    source.keep_safe(output.parent, [output.name], choice.config, *calibrated)
     pair, config = source.read_for(choice)
     pair, geometry, _ = metres.prepare(pair, cameras, raw)
     if geometry is None:

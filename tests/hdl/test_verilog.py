@@ -1,6 +1,9 @@
 """Verilog: the documented ports, for every operator; plain names; memories in few lines."""
 
+import os
 import re
+import sys
+from pathlib import Path
 
 import pytest
 from amaranth.hdl import Module
@@ -13,6 +16,7 @@ from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.text.words import PLAIN, plain_names
 from softdepth.hdl.verilog import TOP, to_verilog
 from softdepth.spec.config import OPERATORS, Config
+from softdepth.spec.errors import ToolError
 from tests.support.simulation import config, sad
 from tests.support.verilog import ports
 
@@ -148,3 +152,30 @@ def test_ports_that_would_share_a_name_are_refused() -> None:
 
     with pytest.raises(ValueError, match="'a_b'"):
         ports_of(Twice())
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("import sys; print('ERROR: no such pass', file=sys.stderr); sys.exit(1)", "ERROR: no such pass"),
+        ("import no_such_yosys", "No module named 'no_such_yosys'"),
+        ("import sys; sys.exit(7)", "it left no message"),
+    ],
+)
+def test_a_yosys_that_fails_is_the_tools_fault(
+    program: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("softdepth.hdl.verilog._YOSYS", [sys.executable, "-c", program])
+    with pytest.raises(ToolError, match=f"yosys failed: .*{said}; run: pip install"):
+        to_verilog(Delay(3, 2))
+
+
+def test_the_users_own_yosys_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Too old a program on PATH, or Amaranth told to use none that is there."""
+    expected = to_verilog(Delay(3, 2))
+    old = tmp_path / "yosys"
+    old.write_text("#!/bin/sh\necho 'Yosys 0.9 (git sha1 0)'\nexit 1\n")
+    old.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setenv("AMARANTH_USE_YOSYS", "system")
+    assert to_verilog(Delay(3, 2)) == expected

@@ -1,5 +1,6 @@
 """Builds are cached by everything that matters, and a failed one leaves nothing behind."""
 
+import errno
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -86,6 +87,43 @@ def test_a_cache_that_cannot_be_written(
     (tmp_path / "file").touch()
     monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path / "file"))
     with pytest.raises(ToolError, match=r"cannot write the cache.*set SOFTDEPTH_CACHE"):
+        build(stand_in())
+
+
+@pytest.mark.parametrize("written", ["copy2", "copyfile"], ids=["the result", "what is reused"])
+def test_a_full_disk_is_told_in_a_line(
+    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, written: str
+) -> None:
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path))
+
+    def compile_(_command: object, folder: Path, *_: object) -> None:
+        (folder / "obj").mkdir(exist_ok=True)
+        for name in (TOP, "verilated.o"):
+            (folder / "obj" / name).touch()
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("softdepth.sim.build._run", compile_)
+    build(stand_in())  # Verilator's own library is kept from now on
+    monkeypatch.setattr(shutil, written, full)
+    with pytest.raises(ToolError, match=r"kept in '.*no space left on device; make room") as error:
+        build(f"// another\n{stand_in()}")
+    assert str(tmp_path) in str(error.value)
+    assert len(str(error.value).splitlines()) == 1
+    assert not list(tmp_path.rglob(".part-*"))
+    assert len(list(tmp_path.rglob(TOP))) == 1
+
+
+def test_a_full_disk_that_no_program_tells(
+    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Verilator leaves empty files, of which make says that they have no targets."""
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path))
+    monkeypatch.setattr("softdepth.sim.build.MAKE_FLAGS", ("OPT_FAST=--no-such-option",))
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=0))
+    with pytest.raises(ToolError, match="no space left on device; make room"):
         build(stand_in())
 
 

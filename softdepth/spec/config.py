@@ -10,7 +10,7 @@ from typing import Any, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from softdepth.spec import ranges
+from softdepth.spec import ranges, stored_rows
 from softdepth.spec.criteria import (
     LITERAL_INPUT,
     AnyCriterion,
@@ -84,7 +84,14 @@ class Config(Settings):
     )
     compensation: Compensation = Compensation()
     post: Post = Post()
-    stored_rows: int = Field(default=0, ge=0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _stored_rows_of_all(cls, given: Any) -> Any:
+        """``stored_rows`` beside the criteria says it of the highest SAD window, which all SADs share."""
+        if not isinstance(given, dict) or stored_rows.KEY not in given:
+            return given
+        return stored_rows.of_the_highest(given, cls.model_fields["criteria"].default)
 
     @field_validator("cost", mode="before")
     @classmethod
@@ -116,12 +123,6 @@ class Config(Settings):
                 "all windows are 1, but the core needs a support of more than one row: use a window of 3"
                 " or more in one criterion"
             )
-        most = 2 * max((c.reach_rows for c in self.criteria if c.stores), default=0)
-        if self.stored_rows > most:
-            raise ValueError(
-                f"stored_rows is {self.stored_rows}, but a window of {most + 1} rows has"
-                f" {most} above its newest: use at most that many"
-            )
         if self.multipliers > self.max_multipliers:
             raise ValueError(
                 f"operator '{self.operator}' in {self.lanes} lanes takes {self.multipliers} multipliers of"
@@ -150,6 +151,13 @@ class Config(Settings):
                 )
         return self
 
+    def shaping(self) -> dict[str, Any]:
+        """As in `Settings`: of rows in memory, how many all SADs together have, whichever says so."""
+        data = super().shaping()
+        for criterion in data["criteria"]:
+            criterion.pop(stored_rows.KEY, None)
+        return data | {stored_rows.KEY: self.stored_rows}
+
     # -- derived: parallelism and ranges ---------------------------------------------------------
 
     @property
@@ -173,6 +181,11 @@ class Config(Settings):
     def sads(self) -> tuple[Sad, ...]:
         """The SADs among the criteria."""
         return tuple(c for c in self.criteria if isinstance(c, Sad))
+
+    @property
+    def stored_rows(self) -> int:
+        """Rows of the SADs' columns whose costs come from memory: the most that one of them says."""
+        return max((c.stored_rows for c in self.sads), default=0)
 
     @property
     def whole_frame(self) -> bool:
@@ -244,7 +257,10 @@ class Config(Settings):
     @property
     def column_rows(self) -> int:
         """Rows that lanes get of a column, the newest last: as far up as any criterion compares anew."""
-        return self.reach_rows + 1 + max(c.reach_rows - self.stored_rows * c.stores for c in self.criteria)
+        above = [c.rows_above - c.reach_rows for c in self.criteria if not isinstance(c, Sad)]
+        if self.sads:  # they share their columns
+            above.append(max(c.reach_rows for c in self.sads) - self.stored_rows)
+        return self.reach_rows + 1 + max(above)
 
     @property
     def places(self) -> int:

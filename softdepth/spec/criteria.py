@@ -34,12 +34,11 @@ class AnyCriterion(Frozen):
 
     ``whole_frame``: it says itself what lies outside the image, and has a value in every pixel. Those
     of the others have none whose support leaves the image; how far that extends around the reference
-    pixel is said by the reaches, in pixels, negative where it begins beyond it. ``stores``: it remembers
-    rows by itself, `Config.stored_rows` of them.
+    pixel is said by the reaches, in pixels, negative where it begins beyond it. ``rows_above``: rows above
+    its newest that lanes give it anew, fewer than its support has where it remembers some by itself.
     """
 
     whole_frame: ClassVar[bool] = False
-    stores: ClassVar[bool] = False
     kind: str
     if TYPE_CHECKING:  # each has its own default, and puts it last
         label_bits: int
@@ -59,6 +58,11 @@ class AnyCriterion(Frozen):
         """Rows above it, and below."""
         return 0
 
+    @property
+    def rows_above(self) -> int:
+        """Rows above its support's newest that are compared anew."""
+        return 2 * self.reach_rows
+
     def maximum_of(self, pixel: PixelFormat) -> int:
         """The largest value of pixels of this format; the smallest is 0."""
         raise NotImplementedError
@@ -74,18 +78,25 @@ class Sad(AnyCriterion):
     The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
     at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T. ``source = "gradient"``
     compares the luma's horizontal gradient, held within +-`GRADIENT_CAP`, in place of the colours.
+    The costs of the window's `stored_rows` upper rows come from block RAM in place of being computed anew,
+    which changes no value. All SADs of a lane share one column: the most that one of them says holds.
     """
 
-    stores: ClassVar[bool] = True
     kind: Literal["sad"] = "sad"  # pyright: ignore[reportIncompatibleVariableOverride]
     source: Literal["colour", "gradient"] = "colour"
     window: int = Field(default=3, ge=1, le=15)
     dx: int = Field(default=0, ge=-16, le=16)
+    stored_rows: int = Field(default=0, ge=0)
     label_bits: int = Field(default=12, ge=4, le=20)
 
     @model_validator(mode="after")
-    def _odd(self) -> Self:
+    def _consistent(self) -> Self:
         check_odd(window=self.window)
+        if self.stored_rows >= self.window:
+            raise ValueError(
+                f"stored_rows is {self.stored_rows}, but a window of {self.window} rows has"
+                f" {self.window - 1} above its newest: use at most that many"
+            )
         return self
 
     @property
@@ -107,6 +118,11 @@ class Sad(AnyCriterion):
     def reach_rows(self) -> int:
         """Rows above it, and below."""
         return self.radius
+
+    @property
+    def rows_above(self) -> int:
+        """The window's, without those from memory."""
+        return self.window - 1 - self.stored_rows
 
     def maximum_of(self, pixel: PixelFormat) -> int:
         """The sum where all pixels differ as much as they can."""

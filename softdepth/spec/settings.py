@@ -88,11 +88,14 @@ class Settings(Frozen):
         """Write `to_toml` to `path`."""
         path.write_text(self.to_toml())
 
+    def shaping(self) -> dict[str, Any]:
+        """All that shapes the core, as plain data."""
+        return self.model_dump(mode="json", exclude={"name", "max_multipliers"})
+
     @cached_property
     def hash(self) -> str:
         """Twelve hex digits that name all that shapes the core: equal hashes build equal cores."""
-        data = self.model_dump(mode="json", exclude={"name", "max_multipliers"})
-        return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:12]
+        return hashlib.sha256(json.dumps(self.shaping(), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def _criterion(data: Any) -> type[AnyCriterion]:

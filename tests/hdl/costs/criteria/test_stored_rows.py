@@ -53,6 +53,16 @@ def test_a_window_that_shrinks_takes_its_rows_along() -> None:
         c.override(["criteria.0.window=5"])
 
 
+def test_said_beside_the_criteria_it_is_the_highest_windows() -> None:
+    beside = config(disparities=4, lanes=2, criteria=[sad(3), sad(7), sad(5)], stored_rows=4)
+    own = config(disparities=4, lanes=2, criteria=[sad(3), sad(7) | {"stored_rows": 4}, sad(5)])
+    assert beside == own
+    assert own.override(["stored_rows=1"]).criteria[1].model_dump()["stored_rows"] == 1
+    assert own.override(["criteria.1.stored_rows=2", "criteria.2.stored_rows=3"]).stored_rows == 3
+    with pytest.raises(ConfigError, match=r"criteria\.0: stored_rows is 3, but a window of 3 rows"):
+        config(criteria=[sad(3) | {"stored_rows": 3}, sad(5), sad(7)])
+
+
 def test_it_shapes_the_core_and_is_kept_in_files(tmp_path: Path) -> None:
     c = Config.preset("sad").override(["stored_rows=1"])
     assert c.hash != c.override(["stored_rows=0"]).hash != c.override(["stored_rows=2"]).hash
@@ -76,7 +86,7 @@ def test_the_line_buffer_holds_the_computed_rows_only(stored: int, monkeypatch: 
             made.append(rows)
             super().__init__(width, rows, max_width)
 
-    monkeypatch.setattr("softdepth.hdl.core.LineBuffer", Noted)
+    monkeypatch.setattr("softdepth.hdl.costs.band_costs.LineBuffer", Noted)
     c = config(disparities=4, lanes=2, stored_rows=stored)
     Fragment.get(StereoCore(c), None)
     assert made == [7 - stored]

@@ -24,7 +24,7 @@ FILES = ("depth.png", "depth.tiff", "depth.pfm", "cloud.ply", "cloud.npz", "unce
 
 @dataclass(frozen=True)
 class Kept:
-    """Which results become depth."""
+    """Which results become depth, and what is said of it."""
 
     measured_only: Annotated[
         bool, typer.Option("--measured-only", help="Depth of measured results only, none that was filled in.")
@@ -50,6 +50,24 @@ class Kept:
                 f"--disparity-error {self.disparity_error:g} is no error", "give pixels, for example 0.25"
             )
         return Choice(self.measured_only, self.min_confidence)
+
+    def check(self, config: "Config", metres: bool = True) -> None:
+        """Raise `InputError` for a floor where a core has no confidence, and for options without `metres`."""
+        if self.min_confidence and not config.post.confidence:
+            raise InputError(
+                f"min_confidence is {self.min_confidence}, but preset {config.name} has no confidence",
+                "use a preset that has it, such as robust, or leave the floor out",
+            )
+        given = {
+            "--measured-only": self.measured_only,
+            f"--min-confidence {self.min_confidence}": self.min_confidence,
+            f"--disparity-error {self.disparity_error}": self.disparity_error,
+        }
+        if not metres and (options := [name for name, value in given.items() if value]):
+            raise InputError(
+                f"{options[0]} is about depth in metres, and the cameras are not known",
+                "give --focal and --baseline, --calibration or --rectify as well",
+            )
 
 
 @dataclass(frozen=True)

@@ -44,11 +44,12 @@ def ros(
 ) -> None:
     """Compute the depth of a bag's stereo images: disparity, depth images and points, into another bag."""
     from softdepth.ros import bag as bags
-    from softdepth.ros.convert import convert
+    from softdepth.ros.convert import Further, convert
     from softdepth.ros.messages import Search
 
     read = [_rig(text) for text in rigs or [f"{RIG},/stereo"]]
     config = choice.configuration()
+    kept.check(config)
     with bags.opened(bag) as reader:
         total = sum(bags.count(reader, rig.topics) for rig in read)
     least = float(config.min_disparity)
@@ -63,6 +64,7 @@ def ros(
             storage=storage,
             tolerance=tolerance,
             choice=kept.choice(),
+            further=Further(config.post.confidence, kept.disparity_error),
             progress=advance,
         )
     for namespace, found in done.pairs.items():

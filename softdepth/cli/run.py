@@ -58,6 +58,7 @@ def run(
     )
     pair, chosen = source.read_for(choice)
     pair, geometry, rectifier = metres.prepare(pair, cameras, raw)
+    kept.check(chosen, geometry is not None)
     inspect.note(pair, chosen)
     with results.result_folder(output, stale=stale) as folder:
         measurement = measure.measure(pair, chosen, engine, also=further)

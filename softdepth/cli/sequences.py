@@ -117,16 +117,7 @@ def prepare(
     measure.check_fits(first, chosen, again=options.command, built=config is not None)
     _, geometry, rectifier = metres.prepare(first, plan.cameras, plan.raw)
     wanted = kept.choice()
-    if wanted.min_confidence and not chosen.post.confidence:
-        raise InputError(
-            f"--min-confidence {wanted.min_confidence}, but preset {chosen.name} has no confidence",
-            "use a preset that has it, such as robust, or leave the floor out",
-        )
-    if kept.disparity_error is not None and geometry is None:
-        raise InputError(
-            f"--disparity-error {kept.disparity_error:g} without cameras",
-            "give --focal and --baseline as well",
-        )
+    kept.check(chosen, geometry is not None)
     about = "" if how.device is None else f"{how.device.description.board} {how.device.description.revision}"
     recipe = Recipe(chosen, how.engine, geometry, wanted, kept.disparity_error, about)
     source = input.Input(found, checked, chosen, rectifier, truths, given.scale)

@@ -8,6 +8,7 @@ import typer
 from softdepth import screen
 from softdepth.cli import calibrations, metres, options, pairs
 from softdepth.cli.bundle import bundled
+from softdepth.spec.errors import InputError
 
 
 @bundled
@@ -34,6 +35,9 @@ def view(
     pair, geometry, _ = metres.prepare(pair, cameras, raw)
     if geometry is None:
         geometry = cameras.geometry((pair.width, pair.height))  # says what is missing
+    kept.check(config)
+    if kept.disparity_error is not None:
+        raise InputError(f"--disparity-error {kept.disparity_error:g} for a page", "give it to softdepth run")
     screen.note("fixed-point model ...")
     found = fixed_model.disparity(pair.left, pair.right, config)
     scene = metres.scene_of(found, geometry, kept, pair)

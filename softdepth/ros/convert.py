@@ -29,6 +29,22 @@ class Disparities:
     confidence: Bytes | None = None
 
 
+@dataclass(frozen=True)
+class Further:
+    """What is written beside depth.
+
+    Members
+    -------
+    confidence : the core's, which it must have.
+    disparity_error : standard error of a disparity in pixels, from which each depth gets its own; or None.
+    """
+
+    confidence: bool = False
+    disparity_error: float | None = None
+
+
+NOTHING_FURTHER = Further()
+
 Compute = Callable[[BagPair], Disparities]
 
 
@@ -39,14 +55,20 @@ class RigTopics:
     topics: Topics
     namespace: str
 
-    def outputs(self) -> dict[str, str]:
+    def outputs(self, further: Further = NOTHING_FURTHER) -> dict[str, str]:
         """The topics of the results, each with its message type."""
         root = self.namespace.rstrip("/")
+        more = {}
+        if further.confidence:
+            more[f"{root}/confidence"] = messages.IMAGE
+        if further.disparity_error is not None:
+            more[f"{root}/depth/uncertainty"] = messages.IMAGE
         return {
             f"{root}/disparity": messages.DISPARITY,
             f"{root}/depth/image_raw": messages.IMAGE,
             f"{root}/depth/image": messages.IMAGE,
             f"{root}/points2": messages.CLOUD,
+            **more,
         }
 
 
@@ -67,6 +89,7 @@ def convert(
     storage: str = "mcap",
     tolerance: float = 0.0,
     choice: Choice | None = None,
+    further: Further = NOTHING_FURTHER,
     progress: Callable[[int], None] = lambda done: None,
 ) -> Converted:
     """Write the depth of every rig's pairs into a new bag, which appears complete or not at all.
@@ -82,6 +105,7 @@ def convert(
     storage : ``mcap`` or ``db3``.
     tolerance : seconds that the stamps of a pair may differ by.
     choice : which results become depth; all of them by default.
+    further : topics beside depth and points.
     progress : is called with the pairs done so far.
 
     Raises `InputError` for what is wrong with the bag, for a target that exists, and where no rig has a pair.
@@ -108,10 +132,10 @@ def convert(
             for rig in rigs:
                 outputs = [
                     writer.add_connection(topic, kind, typestore=TYPES)
-                    for topic, kind in rig.outputs().items()
+                    for topic, kind in rig.outputs(further).items()
                 ]
                 for pair in pairs(reader, rig.topics, tolerance=tolerance):
-                    results = _results(pair, compute(pair), search, choice or Choice())
+                    results = _results(pair, compute(pair), search, choice or Choice(), further)
                     for connection, message in zip(outputs, results, strict=True):
                         raw = TYPES.serialize_cdr(message, connection.msgtype)
                         writer.write(connection, pair.received, raw)
@@ -129,7 +153,9 @@ def convert(
     return done
 
 
-def _results(pair: BagPair, found: Disparities, search: messages.Search, choice: Choice) -> list[object]:
+def _results(
+    pair: BagPair, found: Disparities, search: messages.Search, choice: Choice, further: Further
+) -> list[object]:
     """One message for each of `RigTopics.outputs`."""
     colour = pair.left if pair.left.ndim == 3 else np.repeat(pair.left[..., None], 3, axis=2)
     if colour.dtype != np.uint8:
@@ -138,9 +164,17 @@ def _results(pair: BagPair, found: Disparities, search: messages.Search, choice:
         pair.geometry, found.disparity, found.code, found.confidence, choice=choice, image=colour
     )
     valid = choice.of(found.code, found.confidence)
+    more = []
+    if further.confidence:
+        if found.confidence is None:
+            raise InputError("the core gives no confidence", "use a preset that has it, such as robust")
+        more.append(messages.confidence(pair.header, found.confidence))
+    if further.disparity_error is not None:
+        more.append(messages.depth_uncertainty(pair.header, scene, further.disparity_error))
     return [
         messages.disparity_image(pair.header, pair.geometry, search, found.disparity, valid),
         messages.depth_millimetres(pair.header, scene),
         messages.depth_metres(pair.header, scene),
         messages.point_cloud(pair.header, scene),
+        *more,
     ]

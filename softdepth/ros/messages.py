@@ -82,6 +82,16 @@ def depth_metres(header: Any, scene: Scene) -> Any:
     return image(header, "32FC1", scene.depth.astype(np.float32))
 
 
+def confidence(header: Any, sure: NDArray[np.uint8]) -> Any:
+    """Confidence as `mono8`, 255 the surest, 0 where nothing was measured."""
+    return image(header, "mono8", sure)
+
+
+def depth_uncertainty(header: Any, scene: Scene, disparity_error: float) -> Any:
+    """The standard error of each depth as `32FC1` in metres, NaN for none; the disparity's is in pixels."""
+    return image(header, "32FC1", scene.geometry.uncertainty(scene.depth, disparity_error))
+
+
 def point_cloud(header: Any, scene: Scene) -> Any:
     """An unordered `sensor_msgs/PointCloud2` of the points with a depth: x, y, z, and rgb where known.
 

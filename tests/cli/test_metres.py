@@ -58,7 +58,10 @@ def test_a_later_run_without_cameras_leaves_no_metres(softdepth, files: Files, t
         (("--baseline", 0.1), "depth in metres needs --focal"),
         (("--focal", 0, "--baseline", 0.1), "focal is 0; give a number of pixels above 0"),
         ((*CAMERAS, "--min-confidence", 300), "min_confidence is 300; use 0 to 255"),
-        ((*CAMERAS, "--min-confidence", 3), "the results have no confidence"),
+        ((*CAMERAS, "--min-confidence", 3), "min_confidence is 3, but preset sad has no confidence"),
+        (("--measured-only",), "--measured-only is about depth in metres"),
+        (("--disparity-error", 0.5), "--disparity-error 0.5 is about depth in metres"),
+        ((*CAMERAS, "--disparity-error", -1), "--disparity-error -1 is no error"),
     ],
 )
 def test_what_is_missing_is_named(softdepth, files: Files, tmp_path, arguments, message):
@@ -75,6 +78,12 @@ def test_view_writes_a_page(softdepth, files: Files, tmp_path):
     assert softdepth("view", files.left, files.right, *SMALL, *CAMERAS, "-o", page).code == 0
     assert "points in left_camera_optical_frame" in page.read_text()
     assert "depth in metres needs" in softdepth("view", files.left, files.right, *SMALL, "-o", page).error
+
+
+def test_a_page_has_no_errors(softdepth, files: Files, tmp_path):
+    arguments = ("view", files.left, files.right, *SMALL, *CAMERAS, "--disparity-error", 1)
+    assert "give it to softdepth run" in softdepth(*arguments, "-o", tmp_path / "page.html").error
+    assert not (tmp_path / "page.html").exists()
 
 
 def test_ros(softdepth, frames, tmp_path):  # noqa: F811

@@ -274,7 +274,7 @@ def twice(scene: Path) -> None:
         (None, ("--fps", 0), "--fps 0 is no rate"),
         (None, ("--gt-scale", 2), "--gt-scale 2 without --gt"),
         (None, ("--min-confidence", 3), "has no confidence"),
-        (None, ("--disparity-error", 1), "without cameras"),
+        (None, ("--disparity-error", 1), "the cameras are not known"),
         (None, ("--disparity-error", "nan", *METRES), "--disparity-error nan is no error"),
         (None, ("--raw",), "--raw without a folder of rigs"),
         (None, ("--side-by-side",), "takes one sequence with both views"),

@@ -12,7 +12,7 @@ from rosbags.rosbag2 import StoragePlugin
 
 from softdepth.metric.scene import Choice
 from softdepth.ros.bag import opened
-from softdepth.ros.convert import Disparities, RigTopics, convert
+from softdepth.ros.convert import Disparities, Further, RigTopics, convert
 from softdepth.ros.messages import Search
 from softdepth.spec.errors import InputError
 from softdepth.spec.validity import Validity
@@ -130,6 +130,30 @@ def test_point_cloud(found, left):
     np.testing.assert_allclose(data["xyz"][:, 0], DEPTH[VALID] * (x - 9.5) / FOCAL, atol=1e-6)
     np.testing.assert_allclose(data["xyz"][:, 1], DEPTH[VALID] * (y - 5.5) / FOCAL, atol=1e-6)
     np.testing.assert_array_equal(data["bgr_"][:, 2::-1], left[1][VALID])
+
+
+def test_confidence_and_uncertainty(tmp_path, bag):
+    further = Further(confidence=True, disparity_error=0.25)
+    convert(bag, tmp_path / "out", [RIG], compute, SEARCH, further=further)
+    found = {m.channel.topic: m for m in read_back(tmp_path / "out")}
+    assert {topic: each.schema.name for topic, each in found.items()} == RIG.outputs(further)
+    sure = found["/stereo/confidence"].decoded_message
+    assert (sure.encoding, sure.header.frame_id) == ("mono8", "cam_left_optical")
+    np.testing.assert_array_equal(pixels(sure, "u1"), CONFIDENCE)
+    spread = found["/stereo/depth/uncertainty"].decoded_message
+    assert spread.encoding == "32FC1"
+    np.testing.assert_array_equal(np.isnan(pixels(spread, "<f4")), ~VALID)
+    expected = DEPTH**2 / (FOCAL * BASELINE) * 0.25
+    np.testing.assert_allclose(pixels(spread, "<f4")[VALID], expected[VALID], rtol=1e-5)
+
+
+def test_confidence_of_a_core_that_has_none(tmp_path, bag):
+    def without(pair) -> Disparities:
+        return Disparities(DISPARITY, CODE)
+
+    with pytest.raises(InputError, match="the core gives no confidence"):
+        convert(bag, tmp_path / "out", [RIG], without, SEARCH, further=Further(confidence=True))
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_was_filled_can_be_left_out(tmp_path, bag):

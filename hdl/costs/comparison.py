@@ -69,6 +69,14 @@ class Plan:
     right: int
     history: int
 
+    @property
+    def rows(self) -> dict[str, tuple[int, ...]]:
+        """Of each descriptor, how many rows above the newest it is wanted, ascending."""
+        found: dict[str, set[int]] = {}
+        for c in self.comparisons:
+            found.setdefault(c.field, set()).update((c.new, c.old))
+        return {field: tuple(sorted(rows)) for field, rows in found.items()}
+
 
 MINIMUM_RIGHT = 4
 """Slots that a line has beyond its pixels at least: running sums look a place up before the row above is done

@@ -18,13 +18,16 @@ from softdepth.hdl.costs.whole_lane import (
 )
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.right_columns import RightColumns
-from softdepth.hdl.front.row_delays import RowDelays
 from softdepth.hdl.front.slots import Slots
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.winners.shapes import cost_bits
 from softdepth.spec.config import Config
+
+COLUMN_TIME = 2
+"""Clocks from a slot's first step to its columns: they go to all lanes from afar, and a running sum is looked
+up before its columns are compared."""
 
 GROUP = 16
 """Lanes whose running sums lie in one memory."""
@@ -42,7 +45,7 @@ class WholeCosts(wiring.Component):
 
     ::
 
-        i > slots > rows above > right columns > differences > running sums > supports, boxes > costs
+        i > slots > right columns > differences > running sums > supports, boxes > costs
 
     A slot of ``steps`` clocks for each pixel, and more beyond the ends of lines and frames (`Slots`). What
     lies outside the frame counts 0, and a candidate without a partner a constant.
@@ -71,7 +74,7 @@ class WholeCosts(wiring.Component):
     @property
     def latency(self) -> int:
         """Clocks from a slot's beginning to its first costs."""
-        return Slots.latency + RowDelays.latency + self._sum_after_columns + self._sums[0].latency
+        return Slots.latency + COLUMN_TIME + self._sum_after_columns + self._sums[0].latency
 
     @property
     def _sum_after_columns(self) -> int:
@@ -101,7 +104,7 @@ class WholeCosts(wiring.Component):
         slot = slots.slot
 
         # Clocks after the one in which a step leaves the slots.
-        column_time = RowDelays.latency
+        column_time = COLUMN_TIME
         place_time = column_time + LaneDifferences.latency - RunningSums.ahead
         sum_time = column_time + self._sum_after_columns
         cost_time = sum_time + self._sums[0].latency
@@ -112,24 +115,18 @@ class WholeCosts(wiring.Component):
         def at(value: Value, clock: int, name: str) -> Value:
             return delayed(m, value, clock, name)
 
-        # Rows above.
-        pixel, lags = self._fields()
-        m.submodules.rows = rows = RowDelays(
-            {name: len(Value.cast(self._field(slot.payload, name))) for name in pixel}, lags, config.max_width
-        )
-        m.d.comb += [
-            rows.enters.eq(slots.first),
-            rows.stored.eq(slot.inside),
-            rows.x.eq(slot.x),
-            *(rows.pixel[name].eq(Value.cast(self._field(slot.payload, name))) for name in pixel),
-        ]
+        # A pixel's column in both views: the row that enters the sums, and the one that leaves them.
         row_layout = rows_layout(plan_)
+        lags = plan_.rows
         left, right = Signal(row_layout), Signal(row_layout)
         for view, columns in (("left", left), ("right", right)):
+            held = at(Value.cast(slot.payload[view]), column_time, view)
+            fields = data.View(self._descriptors[view].shape, held)
             for k, c in enumerate(plan_.comparisons):
-                found, name = lags[f"{view}.{c.field}"], f"{view}.{c.field}"
                 for row, lag in enumerate((c.new, c.old)):
-                    m.d.comb += Value.cast(columns[str(k)][row]).eq(rows.o[name][found.index(lag)])
+                    m.d.comb += Value.cast(columns[str(k)][row]).eq(
+                        Value.cast(fields[c.field][lags[c.field].index(lag)])
+                    )
         m.submodules.right = ring = RightColumns(config, row_layout)
         m.d.comb += [
             ring.valid.eq(valid[column_time]),
@@ -162,8 +159,9 @@ class WholeCosts(wiring.Component):
         top = at(slot.top, place_time, "top")
         outside = at(~slot.inside, place_time, "outside")
 
-        weights, reciprocal = self._weights(m, rows, first[column_time], at(slot.inside, column_time, "in"))
-        centre = self._centre(m, rows, first[column_time])
+        colour = at(Value.cast(slot.payload.colour), column_time, "colour")
+        weights, reciprocal = self._weights(m, colour, first[column_time], at(slot.inside, column_time, "in"))
+        centre = self._centre(m, colour, first[column_time])
         differences = []
         for k in range(config.lanes):
             m.submodules[f"differences_{k}"] = lane = LaneDifferences(plan_)
@@ -222,21 +220,7 @@ class WholeCosts(wiring.Component):
         ]
         return m
 
-    def _fields(self) -> tuple[list[str], dict[str, tuple[int, ...]]]:
-        """The descriptors that are kept, and how many rows above each is wanted."""
-        lags: dict[str, tuple[int, ...]] = {}
-        for view in ("left", "right"):
-            for c in self._plan.comparisons:
-                name = f"{view}.{c.field}"
-                lags[name] = tuple(sorted({*lags.get(name, ()), c.new, c.old}))
-        lags["colour"] = (self._plan.below,)
-        return list(lags), lags
-
-    def _field(self, payload: data.View, name: str) -> Value:
-        view, _, field = name.partition(".")
-        return Value.cast(payload[view][field] if field else payload[view])
-
-    def _weights(self, m: Module, rows: RowDelays, enters: Value, inside: Value) -> tuple[Value, Value]:
+    def _weights(self, m: Module, colour: Value, enters: Value, inside: Value) -> tuple[Value, Value]:
         """The support of the pixel that is judged, when the newest of its column sums is there."""
         for c in self._plan.comparisons:
             if not c.taps:
@@ -248,7 +232,7 @@ class WholeCosts(wiring.Component):
             m.submodules.wait = wait = Delay(self._colour_bits + 1, self._plan.right - c.reach)
             m.d.comb += [
                 wait.en.eq(enters),
-                wait.i.eq(Value.cast(rows.o["colour"]) | (inside << self._colour_bits)),
+                wait.i.eq(colour | (inside << self._colour_bits)),
                 weights.enters.eq(enters),
                 weights.colour.eq(wait.o[: self._colour_bits]),
                 weights.inside.eq(wait.o[self._colour_bits]),
@@ -257,11 +241,11 @@ class WholeCosts(wiring.Component):
         sums = self._sums[0]
         return Signal.like(sums.weights), Signal.like(sums.reciprocal)
 
-    def _centre(self, m: Module, rows: RowDelays, enters: Value) -> Value:
+    def _centre(self, m: Module, colour: Value, enters: Value) -> Value:
         """The colour of the pixel that is judged, a clock after its slot's columns, through all steps."""
         m.submodules.colours = colours = Delay(self._colour_bits, self._plan.right)
         centre = Signal(self._colour_bits, name="centre", reset_less=True)
-        m.d.comb += [colours.en.eq(enters), colours.i.eq(Value.cast(rows.o["colour"]))]
+        m.d.comb += [colours.en.eq(enters), colours.i.eq(colour)]
         with m.If(enters):
             m.d.sync += centre.eq(colours.o)
         return centre

@@ -1,6 +1,6 @@
 """What is known of each view's pixels before they are compared."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from amaranth.hdl import Cat, Module, Shape, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
@@ -8,44 +8,58 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.census import CENSUS_REACH, SQUARES, Census
 from softdepth.hdl.front.gradient import Gradient
-from softdepth.hdl.front.luma import Luma
-from softdepth.hdl.memory.window import MARKERS, Window, raster_layout
+from softdepth.hdl.front.luma import Colour, Luma, rest_bits
+from softdepth.hdl.front.tall_window import TallWindow
+from softdepth.hdl.memory.window import MARKERS, raster_layout
 from softdepth.hdl.post.stage import delayed, window_stage
 
 VIEWS = ("left", "right")
+CENSUS = "census"
+GRADIENT_REACH = 1
 
 
-def view_layout(caps: Mapping[str, int], *, census: bool) -> data.StructLayout:
-    """The descriptors of a pixel in one view: its census, and a gradient for each of ``caps``."""
-    shapes: dict[str, Shape] = {"census": unsigned(len(SQUARES))} if census else {}
-    shapes |= {name: Shape.cast(range(-cap, cap + 1)) for name, cap in caps.items()}
-    return data.StructLayout(shapes)
+def view_layout(caps: Mapping[str, int], rows: Mapping[str, Sequence[int]]) -> data.StructLayout:
+    """The descriptors of a column in one view: of each field one for each of its ``rows``."""
+    shapes = {CENSUS: unsigned(len(SQUARES)), **{k: Shape.cast(range(-c, c + 1)) for k, c in caps.items()}}
+    return data.StructLayout({name: data.ArrayLayout(shapes[name], len(rows[name])) for name in rows})
 
 
 class Descriptors(wiring.Component):
     """Turns a raster of pixel pairs into one of descriptors of both views, the frame's edges repeated.
 
-    A pixel a clock, but for twice the window's reach a line and the reach in lines a frame.
+    Each pixel comes with descriptors of pixels above it. They are computed from the lumas of the rows
+    around those, as a luma remembered takes a third of the memory of a census, and of one and a gradient
+    a quarter. Behind a frame's lines there come ``after`` more, for what is above them.
+    A pixel a clock, but for twice the window's reach a line, and the reach and ``after`` in lines a frame.
 
     Parameters
     ----------
     channels, bits : of a pixel.
-    census : it is wanted.
-    caps : bounds of the gradients that are wanted, by name.
+    rows : which descriptors are wanted, by name, and of how many rows above the pixel, ascending.
+    caps : bounds of gradients, by name; ``census`` is none of them.
+    after : lines behind a frame.
 
     Members
     -------
     i : `raster_layout` of both views' pixels, left lowest.
-    o : the same raster: ``left``, ``right`` are a `view_layout` each, ``colour`` is the left pixel.
+    o : the same raster and the lines behind it, of whose markers ``eol`` alone is ever high: ``left``,
+        ``right`` are a `view_layout` each, ``colour`` is the left pixel ``after`` rows above.
     """
 
     def __init__(
-        self, channels: int, bits: int, max_width: int, *, census: bool, caps: Mapping[str, int]
+        self,
+        channels: int,
+        bits: int,
+        max_width: int,
+        *,
+        rows: Mapping[str, Sequence[int]],
+        caps: Mapping[str, int],
+        after: int,
     ) -> None:
         self._channels, self._bits, self._max_width = channels, bits, max_width
-        self._census, self._caps = census, dict(caps)
+        self._rows, self._caps, self._after = dict(rows), dict(caps), after
         pixel = channels * bits
-        self.view = view_layout(caps, census=census)
+        self.view = view_layout(caps, rows)
         members = {"left": self.view, "right": self.view, "colour": unsigned(pixel)}
         self.layout = data.StructLayout({**members, **dict.fromkeys(MARKERS, 1)})
         super().__init__(
@@ -62,38 +76,56 @@ class Descriptors(wiring.Component):
         for k, name in enumerate(VIEWS):
             m.submodules[f"luma_{name}"] = luma = Luma(self._channels, self._bits)
             m.d.comb += luma.i.eq(self.i.payload.element[k * pixel : (k + 1) * pixel])
-            lumas.append(luma.o)
-        reach = CENSUS_REACH if self._census else 1
+            lumas.append(luma)
+        reaches = {name: CENSUS_REACH if name == CENSUS else GRADIENT_REACH for name in self._rows}
+        reach = max(reaches.values())
         element = data.StructLayout(dict.fromkeys(VIEWS, unsigned(self._bits)))
-        window = Window(element, unsigned(pixel), reach, reach, self._max_width)
+        rest = rest_bits(self._channels, self._bits)
+        window = TallWindow(
+            element,
+            unsigned(rest),
+            reach=reach,
+            depth=reach + max(max(rows) + reaches[name] for name, rows in self._rows.items()),
+            after=self._after,
+            max_width=self._max_width,
+        )
 
         latency = Gradient.latency if self._caps else Census.latency
         results: dict[str, Value] = {}
-        for name in VIEWS:
-            rows = [[element[name] for element in row] for row in window.window]
-            view = Signal(self.view, name=name)
-            if self._census:
-                m.submodules[f"census_{name}"] = census = Census(self._bits)
-                m.d.comb += Value.cast(census.window).eq(Cat(*(Cat(*row) for row in rows)))
-                late = delayed(m, census.o, latency - Census.latency, f"census_{name}")
-                m.d.comb += view.census.eq(late)
-            middle = [row[reach - 1 : reach + 2] for row in rows[reach - 1 : reach + 2]]
-            for field, cap in self._caps.items():
-                m.submodules[f"{field}_{name}"] = gradient = Gradient(self._bits, cap)
-                m.d.comb += [
-                    Value.cast(gradient.window).eq(Cat(*(Cat(*row) for row in middle))),
-                    view[field].eq(gradient.o),
-                ]
-            results[name] = Value.cast(view)
-        results["colour"] = delayed(m, Value.cast(window.companion), latency, "colour")
+        for view_name in VIEWS:
+            view = Signal(self.view, name=view_name)
+            for field, rows in self._rows.items():
+                for k, row in enumerate(rows):
+                    block = Census(self._bits) if field == CENSUS else Gradient(self._bits, self._caps[field])
+                    m.submodules[f"{field}_{row}_{view_name}"] = block
+                    near, middle = reaches[field], reach + row
+                    around = [
+                        Value.cast(window.window[r][c][view_name])
+                        for r in range(middle + near, middle - near - 1, -1)
+                        for c in range(reach - near, reach + near + 1)
+                    ]
+                    late = delayed(
+                        m, Value.cast(block.o), latency - block.latency, f"{field}_{row}_{view_name}"
+                    )
+                    m.d.comb += [
+                        Value.cast(block.window).eq(Cat(*around)),
+                        Value.cast(view[field][k]).eq(late),
+                    ]
+            results[view_name] = Value.cast(view)
+        m.submodules.colour = colour = Colour(self._channels, self._bits)
+        m.d.comb += [
+            colour.i.eq(window.window[reach + self._after][reach].left),
+            colour.rest.eq(window.companion),
+        ]
+        results["colour"] = delayed(m, colour.o, latency, "colour")
         window_stage(
             m,
             self.i,
             self.o,
             window,
             latency,
-            element=Cat(*lumas),
-            companion=self.i.payload.element[:pixel],
+            element=Cat(*(luma.o for luma in lumas)),
+            companion=lumas[0].rest,
             results=results,
         )
         return m

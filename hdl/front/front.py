@@ -73,7 +73,13 @@ class Front(wiring.Component):
 
     def _wanted(self) -> Descriptors:
         """The descriptors that the criteria compare."""
-        pixel, comparisons = self._config.pixel, plan(self._config).comparisons
-        caps = {c.field: c.criterion.cap for c in comparisons if isinstance(c.criterion, Gradient)}
-        census = len(caps) < len(comparisons)
-        return Descriptors(pixel.channels, pixel.bits, self._config.max_width, census=census, caps=caps)
+        pixel, needs = self._config.pixel, plan(self._config)
+        caps = {c.field: c.criterion.cap for c in needs.comparisons if isinstance(c.criterion, Gradient)}
+        return Descriptors(
+            pixel.channels,
+            pixel.bits,
+            self._config.max_width,
+            rows=needs.rows,
+            caps=caps,
+            after=needs.below,
+        )

@@ -39,8 +39,8 @@ class Slots(wiring.Component):
     """Issues slots of ``steps`` clocks: for each pixel, and where a support reaches beyond the frame.
 
     A line has ``right`` slots after its last pixel, a frame ``below`` lines after its last, and ``drain``
-    slots after these, for what behind it counts in slots. Input is held back meanwhile, and nothing
-    waits for the frame that follows.
+    slots after these, for what behind it counts in slots. The lines behind a frame come in like its own;
+    for all else input is held back. Nothing waits for the frame that follows.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Slots(wiring.Component):
 
     Members
     -------
-    i : a raster: ``payload`` and the markers.
+    i : a raster: ``payload`` and the markers, and ``below`` lines behind each frame.
     credit : a slot may begin in this clock.
     begins : one does.
     valid, first, last, step : a step is taken; registered, one clock after ``begins``.
@@ -92,7 +92,6 @@ class Slots(wiring.Component):
         m = Module()
         item = self.i.payload
         x = Signal(range(self._max_width + self._right))
-        last_x = Signal(range(self._max_width))
         beyond = Signal(range(self._right + 1))  # slots to the right of the frame still to come
         below = Signal(range(self._below + 1))  # lines below the frame still to come, this one included
         draining = Signal(range(self._drain + 1))
@@ -110,9 +109,9 @@ class Slots(wiring.Component):
             free.eq(~going & self.credit),
             drained.eq(free & (draining != 0)),
             outside.eq(free & (draining == 0) & (beyond != 0)),
-            flushed.eq(free & (draining == 0) & (beyond == 0) & (below != 0)),
-            self.i.ready.eq(free & (draining == 0) & (beyond == 0) & (below == 0)),
-            own.eq(self.i.valid & self.i.ready),
+            self.i.ready.eq(free & (draining == 0) & (beyond == 0)),
+            own.eq(self.i.valid & self.i.ready & (below == 0)),
+            flushed.eq(self.i.valid & self.i.ready & (below != 0)),
             self.begins.eq(own | flushed | outside | drained),
         ]
 
@@ -123,7 +122,7 @@ class Slots(wiring.Component):
         m.d.comb += [
             starts.eq(own & item.sof),
             inside.eq(own | flushed),
-            at_end.eq((own & item.eol) | (flushed & (x == last_x))),
+            at_end.eq(inside & item.eol),
             over.eq((at_end & (self._right == 0)) | (outside & (beyond == 1))),
         ]
         rows_now = Signal.like(rows)
@@ -158,7 +157,7 @@ class Slots(wiring.Component):
                 fresh.eq((fresh | starts) & ~emits),
             ]
             with m.If(at_end):
-                m.d.sync += [beyond.eq(self._right), last_x.eq(x)]
+                m.d.sync += beyond.eq(self._right)
             with m.If(outside):
                 m.d.sync += beyond.eq(beyond - 1)
             with m.If(own):

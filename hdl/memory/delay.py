@@ -20,18 +20,20 @@ class Delay(wiring.Component):
     ----------
     shape : shape of the value.
     depth : enabled clocks; 0 is a wire.
+    registers : whatever the depth, where flip-flops are to be had and lookup tables are not.
     """
 
-    def __init__(self, shape: ShapeLike, depth: int) -> None:
+    def __init__(self, shape: ShapeLike, depth: int, *, registers: bool = False) -> None:
         if depth < 0:
             raise ValueError(f"depth is {depth}, but a delay cannot look ahead")
         self._shape = shape
         self._depth = depth
+        self._in_registers = registers or depth <= REGISTER_LIMIT
         super().__init__({"en": In(1), "i": In(shape), "o": Out(shape)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        if self._depth <= REGISTER_LIMIT:
+        if self._in_registers:
             value = self.i
             for k in range(self._depth):
                 register = Signal(self._shape, name=f"tap_{k + 1}", reset_less=True)

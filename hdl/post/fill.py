@@ -1,10 +1,11 @@
 """What was not measured is filled from its row."""
 
-from amaranth.hdl import Module, Mux, Signal
+from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.post.layout import is_measured, post_layout
 from softdepth.spec.validity import Validity
 
@@ -53,8 +54,16 @@ class Fill(wiring.Component):
         with m.Else():
             m.d.sync += marks.eq(taken & payload.eol)
 
-        result = data.View(self._layout, results.r_data)
-        head = data.View(entry, values.r_data)
+        # What block RAM gives late is decided upon a clock later.
+        m.submodules.next_result = next_result = ItemQueue(self._layout)
+        m.submodules.next_value = next_value = ItemQueue(entry)
+        for fifo, queue in ((results, next_result), (values, next_value)):
+            m.d.comb += [
+                queue.i.valid.eq(fifo.r_rdy),
+                fifo.r_en.eq(queue.i.ready),
+                Value.cast(queue.i.payload).eq(fifo.r_data),
+            ]
+        result, head = next_result.o.payload, next_value.o.payload
         ending = Signal()  # the line has left: so does its mark
         last, any_left = Signal(self._value_bits, reset_less=True), Signal()
         measured = Signal()
@@ -70,9 +79,9 @@ class Fill(wiring.Component):
         full = Signal()
         chosen = Signal(self._layout, reset_less=True)
         m.d.comb += [
-            gives.eq(results.r_rdy & values.r_rdy & ~ending & (~full | self.o.ready)),
-            results.r_en.eq(gives),
-            values.r_en.eq((gives & measured) | (ending & values.r_rdy)),
+            gives.eq(next_result.o.valid & next_value.o.valid & ~ending & (~full | self.o.ready)),
+            next_result.o.ready.eq(gives),
+            next_value.o.ready.eq((gives & measured) | ending),
             self.o.valid.eq(full),
             self.o.payload.eq(chosen),
         ]
@@ -88,6 +97,6 @@ class Fill(wiring.Component):
                 ]
         with m.Elif(self.o.ready):
             m.d.sync += full.eq(0)
-        with m.If(ending & values.r_rdy):
+        with m.If(ending & next_value.o.valid):
             m.d.sync += [ending.eq(0), any_left.eq(0)]
         return m

@@ -34,7 +34,7 @@ def window_stage(
     m.submodules.window = window
     payload = i.payload
     layout = o.payload.shape()
-    m.submodules.queue = queue = ResultQueue(layout, Window.latency + latency)
+    m.submodules.queue = queue = ResultQueue(layout, window.latency + latency)
     m.d.comb += [
         window.i.valid.eq(i.valid),
         i.ready.eq(window.i.ready),

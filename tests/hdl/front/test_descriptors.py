@@ -10,8 +10,9 @@ from softdepth.hdl.memory.window import raster_layout
 from tests.support.results import markers
 from tests.support.simulation import config, stream_through
 
-SIZES = [(7, 9), (1, 4), (3, 5), (5, 16)]
+SIZES = [(7, 9), (1, 4), (3, 5), (12, 16)]
 PIXEL = 24
+AFTER = 4
 
 
 def luma(pixel: NDArray[np.int64]) -> int:
@@ -32,29 +33,42 @@ def test_descriptors(rates: tuple[float, float]) -> None:
                 word = sum(int(v) << 8 * k for k, v in enumerate(frame[:, y, x].reshape(-1)))
                 item = layout.const({"element": word, **markers(y, x, height, width)})
                 sent.append(item.as_value().value)
-    dut = Descriptors(3, 8, 16, census=True, caps={"narrow": 31, "wide": 100})
+    rows = {"census": (0, 9), "narrow": (2, 7), "wide": (1,)}
+    dut = Descriptors(3, 8, 16, rows=rows, caps={"narrow": 31, "wide": 100}, after=AFTER)
     found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
     for frame in frames:
         _, height, width, _ = frame.shape
         lumas = [[[luma(p) for p in row] for row in view] for view in frame]
-        for y in range(height):
-            for x in range(width):
-                got = next(found)
-                for view, name in zip(lumas, ("left", "right"), strict=True):
+        for y, x in np.ndindex(height + AFTER, width):
+            got = next(found)
+            for view, name in zip(lumas, ("left", "right"), strict=True):
 
-                    def at(dy: int, dx: int, view: list = view, y: int = y, x: int = x) -> int:
-                        row = min(max(y + dy, 0), len(view) - 1)
-                        return view[row][min(max(x + dx, 0), len(view[0]) - 1)]
+                def at(dy: int, dx: int, view: list = view, x: int = x) -> int:
+                    """Around a column, at a row of the frame."""
+                    row = min(max(dy, 0), len(view) - 1)
+                    return view[row][min(max(x + dx, 0), len(view[0]) - 1)]
 
-                    around = [(dy, dx) for dy in range(-3, 4) for dx in range(-3, 4) if (dy + dx) % 2 == 0]
-                    around.remove((0, 0))
-                    census = sum((at(*place) < at(0, 0)) << k for k, place in enumerate(around))
-                    sobel = sum(k * (at(dy, 1) - at(dy, -1)) for dy, k in ((-1, 1), (0, 2), (1, 1)))
-                    assert got[name].census == census, (y, x)
-                    assert got[name].narrow == min(max(sobel, -31), 31)
-                    assert got[name].wide == min(max(sobel, -100), 100)
-                assert got.colour == sum(int(v) << 8 * k for k, v in enumerate(frame[0, y, x]))
-                assert got.eof == markers(y, x, height, width)["eof"]
+                for k, above in enumerate(rows["census"]):
+                    if 0 <= (row := y - above) < height:
+                        around = [
+                            (dy, dx) for dy in range(-3, 4) for dx in range(-3, 4) if (dy + dx) % 2 == 0
+                        ]
+                        around.remove((0, 0))
+                        census = sum(
+                            (at(row + dy, dx) < at(row, 0)) << k for k, (dy, dx) in enumerate(around)
+                        )
+                        assert got[name].census[k] == census, (y, x, above)
+                for field, cap in (("narrow", 31), ("wide", 100)):
+                    for k, above in enumerate(rows[field]):
+                        if 0 <= (row := y - above) < height:
+                            sides = [at(row + dy, 1) - at(row + dy, -1) for dy in (-1, 0, 1)]
+                            sobel = sides[0] + 2 * sides[1] + sides[2]
+                            assert got[name][field][k] == min(max(sobel, -cap), cap), (y, x, above)
+            if 0 <= y - AFTER:
+                assert got.colour == sum(int(v) << 8 * k for k, v in enumerate(frame[0, y - AFTER, x]))
+            expected = markers(y, x, height, width) if y < height else {"eol": x == width - 1}
+            for marker in ("sof", "eol", "eof"):
+                assert got[marker] == expected.get(marker, False), (y, x, marker)
     assert next(found, None) is None
 
 

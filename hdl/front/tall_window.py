@@ -1,0 +1,208 @@
+"""Windows of a raster that reach far up: all rows that a pixel's column sums take in and leave out."""
+
+from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.memory.packed_memory import PackedMemory
+from softdepth.hdl.memory.window import MARKERS, raster_layout
+
+
+class TallWindow(wiring.Component):
+    """Gives each pixel the rows from ``reach`` below it to as many above it as are wanted.
+
+    A frame's edges are repeated, as far as a window of ``reach`` needs them whose centre lies in the frame:
+    a line's first and last columns enter ``reach`` times more than once, a frame's first row into the
+    ``reach`` rows above it, and below its last row a column's newest pixel enters again. Behind a frame's
+    lines there come ``after`` more, of which the rows above alone mean anything. So a line takes ``2 reach``
+    clocks more than it has pixels, and a frame ``reach + after`` lines more, in which the input is held back;
+    nothing waits for the frame that follows.
+
+    Parameters
+    ----------
+    element : what is wanted of all rows.
+    companion : what is wanted of one pixel alone: of that ``after`` rows above the centre.
+    reach : rows below the centre, and columns to its sides.
+    depth : rows from the newest to the oldest, that one not counted.
+    max_width : pixels of the longest line; the shortest has 4.
+
+    Members
+    -------
+    i : a raster.
+    credit : a window may be begun in this clock.
+    promised : one is: it leaves `latency` clocks later.
+    valid : a window is there, which cannot be held back.
+    window : its elements, the newest row first, columns from the left.
+    companion : of the pixel ``after`` rows above the centre.
+    sof, eol, eof : of the centre. Lines behind the frame have an end, and nothing else.
+    damaged : the frame was mended somewhere up to the window's last pixel.
+    """
+
+    latency = 4
+
+    def __init__(
+        self, element: ShapeLike, companion: ShapeLike, *, reach: int, depth: int, after: int, max_width: int
+    ) -> None:
+        self._element, self._companion = element, companion
+        self._reach, self._depth, self._after, self._max_width = reach, depth, after, max_width
+        self._across = 2 * reach + 1
+        super().__init__(
+            {
+                "i": In(stream.Signature(raster_layout(element, companion))),
+                "credit": In(1),
+                "promised": Out(1),
+                "valid": Out(1),
+                "window": Out(data.ArrayLayout(data.ArrayLayout(element, self._across), depth + 1)),
+                "companion": Out(companion),
+                **{name: Out(1) for name in MARKERS},
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        reach, depth, after, across = self._reach, self._depth, self._after, self._across
+        item = self.i.payload
+
+        # A slot is a clock in which a column enters: a new one, or the one before again.
+        at_line_start = Signal(init=1)
+        x = Signal(range(self._max_width))
+        last_x = Signal.like(x)
+        below = Signal(range(reach + after + 1))  # lines behind the frame still to come, this one included
+        repeats = Signal(range(reach + 1))
+        after_last = Signal()  # the repeats are of the line's last column
+        entered = Signal(range(2 * reach + 1))  # columns of the line so far, up to a whole window
+        row_age = Signal(range(reach + 1))  # rows of the frame so far, up to the first that has a result
+        in_first_row = Signal()
+        fresh = Signal()  # no result of the frame has left
+        ended = Signal()  # the frame's last pixel was taken
+        damaged = Signal()
+
+        flushing, repeat, new, slot = Signal(), Signal(), Signal(), Signal()
+        m.d.comb += [
+            flushing.eq(below != 0),
+            repeat.eq((repeats != 0) & self.credit),
+            self.i.ready.eq((repeats == 0) & ~flushing & self.credit),
+            new.eq((repeats == 0) & self.credit & (flushing | self.i.valid)),
+            slot.eq(repeat | new),
+        ]
+        first, last, starts, line_over = Signal(), Signal(), Signal(), Signal()
+        m.d.comb += [
+            first.eq(new & at_line_start),
+            last.eq(new & Mux(flushing, x == last_x, item.eol)),
+            starts.eq(new & ~flushing & item.sof),
+            line_over.eq(repeat & (repeats == 1) & after_last),
+        ]
+        now_age = Signal.like(row_age)
+        entered_now = Signal.like(entered)
+        emits = Signal()
+        m.d.comb += [
+            now_age.eq(Mux(starts, 0, row_age)),
+            entered_now.eq(Mux(first, 0, entered)),
+            emits.eq(slot & (now_age == reach) & (entered_now == 2 * reach)),
+            self.promised.eq(emits),
+        ]
+        with m.If(slot):
+            m.d.sync += entered.eq(entered_now + (entered_now != 2 * reach))
+        with m.If(new):
+            m.d.sync += [
+                at_line_start.eq(last),
+                x.eq(Mux(last, 0, x + 1)),
+                after_last.eq(last),
+                repeats.eq(Mux(first | last, reach, 0)),
+            ]
+            with m.If(last):
+                m.d.sync += last_x.eq(x)
+        with m.Elif(repeat):
+            m.d.sync += repeats.eq(repeats - 1)
+        with m.If(starts):
+            m.d.sync += [in_first_row.eq(1), row_age.eq(0), fresh.eq(1)]
+        with m.If(new & ~flushing):
+            m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
+        with m.If(line_over):
+            m.d.sync += in_first_row.eq(0)
+            with m.If(row_age != reach):
+                m.d.sync += row_age.eq(row_age + 1)
+            with m.If(flushing):
+                m.d.sync += below.eq(below - 1)
+            with m.Elif(ended):
+                m.d.sync += below.eq(reach + after)
+        with m.If(emits):
+            m.d.sync += fresh.eq(0)
+
+        # Clock 1: the memory is read. Clock 2: its word is there. Clock 3: the column. Clock 4: the window.
+        flags = data.StructLayout(
+            {"top": 1, "flushing": 1, "x": range(self._max_width), **dict.fromkeys(MARKERS, 1)}
+        )
+        occurs = data.StructLayout({"new": 1, "slot": 1, "emits": 1})
+        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(5)]
+        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(5)]
+        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(3)]
+        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(3)]
+        m.d.comb += [
+            happens[0].new.eq(new),
+            happens[0].slot.eq(slot),
+            happens[0].emits.eq(emits),
+            stages[0].top.eq(starts | in_first_row),
+            stages[0].flushing.eq(flushing),
+            stages[0].x.eq(x),
+            stages[0].sof.eq(fresh),
+            stages[0].eol.eq(line_over),
+            stages[0].eof.eq(line_over & (below == after + 1)),
+            stages[0].damaged.eq(damaged),
+            pixel[0].eq(item.element),
+            along[0].eq(item.companion),
+        ]
+        for k in range(4):
+            m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]
+        for k in range(2):
+            m.d.sync += [pixel[k + 1].eq(pixel[k]), along[k + 1].eq(along[k])]
+
+        bits, along_bits = len(Value.cast(pixel[0])), len(Value.cast(along[0]))
+        lag = reach + after
+        word = data.StructLayout({"above": bits * depth, "along": along_bits * lag})
+        m.submodules.lines = lines = PackedMemory(word, self._max_width)
+        above = lines.data.above
+        newest = Value.cast(pixel[2])
+        repeated = reach * bits  # of the rows above a frame's first
+        column = Signal(bits * (depth + 1), reset_less=True)  # the newest row lowest
+        trail = Signal(along_bits * (lag + 1), reset_less=True)
+        with m.If(happens[2].new):
+            m.d.sync += [
+                column.eq(
+                    Cat(
+                        Mux(stages[2].flushing, above[:bits], newest),
+                        Mux(stages[2].top, newest.replicate(reach), above[:repeated]),
+                        above[repeated:],
+                    )
+                ),
+                trail.eq(Cat(along[2], lines.data.along)),
+            ]
+        m.d.comb += [
+            lines.read.eq(happens[1].new),
+            lines.read_at.eq(stages[1].x),
+            lines.write.eq(happens[3].new),
+            lines.write_at.eq(stages[3].x),
+            lines.written.above.eq(column),
+            lines.written.along.eq(trail),
+        ]
+
+        past = [Signal(len(column), name=f"column_{k}", reset_less=True) for k in range(across)]
+        trails = [Signal(along_bits, name=f"trail_{k}", reset_less=True) for k in range(reach + 1)]
+        with m.If(happens[3].slot):
+            m.d.sync += [
+                past[-1].eq(column),
+                *(past[k].eq(past[k + 1]) for k in range(across - 1)),
+                trails[-1].eq(trail[along_bits * lag :]),
+                *(trails[k].eq(trails[k + 1]) for k in range(reach)),
+            ]
+        m.d.comb += [
+            self.valid.eq(happens[4].emits),
+            Value.cast(self.companion).eq(trails[0]),
+            *(getattr(self, name).eq(stages[4][name]) for name in MARKERS),
+            *(
+                Value.cast(self.window[r][c]).eq(past[c][r * bits : (r + 1) * bits])
+                for r in range(depth + 1)
+                for c in range(across)
+            ),
+        ]
+        return m

@@ -64,7 +64,7 @@ def test_descriptors(rates: tuple[float, float]) -> None:
                             sides = [at(row + dy, 1) - at(row + dy, -1) for dy in (-1, 0, 1)]
                             sobel = sides[0] + 2 * sides[1] + sides[2]
                             assert got[name][field][k] == min(max(sobel, -cap), cap), (y, x, above)
-            if 0 <= y - AFTER:
+            if y - AFTER >= 0:
                 assert got.colour == sum(int(v) << 8 * k for k, v in enumerate(frame[0, y - AFTER, x]))
             expected = markers(y, x, height, width) if y < height else {"eol": x == width - 1}
             for marker in ("sof", "eol", "eof"):

@@ -52,7 +52,15 @@ class Kept:
         return Choice(self.measured_only, self.min_confidence)
 
     def check(self, config: "Config", metres: bool = True) -> None:
-        """Raise `InputError` for a floor where a core has no confidence, and for options without `metres`."""
+        """Raise `InputError` where a core cannot give what is asked for, and for options without `metres`.
+
+        Depth, points and their colours are in the left camera's frame, which a map of the right view is not.
+        """
+        if metres and config.reference == "right":
+            raise InputError(
+                "depth in metres is the left view's, and the configuration's reference is right",
+                "use --set reference=left, or leave the cameras out",
+            )
         if self.min_confidence and not config.post.confidence:
             raise InputError(
                 f"min_confidence is {self.min_confidence}, but preset {config.name} has no confidence",

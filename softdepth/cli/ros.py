@@ -8,6 +8,7 @@ import typer
 from softdepth import screen
 from softdepth.cli import metres, options
 from softdepth.cli.bundle import bundled
+from softdepth.run import measure
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 
@@ -47,9 +48,12 @@ def ros(
     from softdepth.ros.convert import Further, convert
     from softdepth.ros.messages import Search
 
+    if not 0 <= tolerance < float("inf"):
+        raise InputError(f"--tolerance {tolerance:g} is no time", "give seconds, for example 0.005")
     read = [_rig(text) for text in rigs or [f"{RIG},/stereo"]]
     config = choice.configuration()
     kept.check(config)
+    limits = [key for key in measure.LIMITS if not choice.sets(key)]
     with bags.opened(bag) as reader:
         total = sum(bags.count(reader, rig.topics) for rig in read)
     least = float(config.min_disparity)
@@ -59,7 +63,7 @@ def ros(
             bag,
             output,
             read,
-            lambda pair: _compute(pair, config),
+            lambda pair: _compute(pair, config, limits),
             search,
             storage=storage,
             tolerance=tolerance,
@@ -82,20 +86,22 @@ def _rig(text: str) -> "RigTopics":
             f"--rig {text} is not LEFT,RIGHT or LEFT,RIGHT,NAMESPACE", f"write --rig {RIG},/stereo"
         )
     left, right = names[:2]
+    if left == right:
+        raise InputError(f"--rig {text} has one topic for both views", "name the left and the right one")
     infos = (f"{name.rpartition('/')[0]}/camera_info" for name in (left, right))
     namespace = names[2] if len(names) == 3 else left.rpartition("/")[0].rpartition("/")[0] or "/stereo"
     return RigTopics(Topics(left, right, *infos), namespace)
 
 
-def _compute(pair: "BagPair", config: Config) -> "Disparities":
-    """A pair through the fixed-point model, in a core that is wide enough for it."""
+def _compute(pair: "BagPair", config: Config, limits: list[str]) -> "Disparities":
+    """A pair through the fixed-point model, in a core that is as large as it where `limits` are not set."""
     from softdepth.golden import fixed_model
     from softdepth.golden.data.pair import StereoPair
     from softdepth.ros.convert import Disparities
 
     bits = 16 if pair.left.dtype.itemsize == 2 else 8
     stereo = StereoPair(pair.left, pair.right, "bag", bits=bits).as_format(config.pixel)
-    height, width = pair.left.shape[:2]
-    fitting = config.override([f"max_width={max(width, 8)}", f"max_height={max(height, 8)}"])
+    fitting = measure.as_large_as(stereo, config, limits)
+    measure.check_fits(stereo, fitting, again=options.command)
     found = fixed_model.disparity(stereo.left, stereo.right, fitting)
     return Disparities(found.pixels, found.code, found.confidence)

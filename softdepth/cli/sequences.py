@@ -1,6 +1,7 @@
 """What the commands that take sequences have in common: checks before long work, the work, its files."""
 
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -144,7 +145,13 @@ def run(ready: Ready, how: How) -> int:
         screen.note(f"note: {len(others)} folders in '{folder}' are of other frames; they are left alone")
     start = time.monotonic()
     work = Work(ready.source.pairs, checked.names, ready.recipe, folder, how.processes, how.device)
-    records = work.run()
+    try:
+        records = work.run()
+    except BaseException:
+        for each in (folder, output):  # where nothing came of it
+            with suppress(OSError):
+                each.rmdir()
+        raise
     seconds = time.monotonic() - start
     if ready.rectifier is not None:
         calibrations.write(output, ready.rectifier, checked.first)

@@ -59,6 +59,7 @@ def test_a_later_run_without_cameras_leaves_no_metres(softdepth, files: Files, t
         (("--focal", 0, "--baseline", 0.1), "focal is 0; give a number of pixels above 0"),
         ((*CAMERAS, "--min-confidence", 300), "min_confidence is 300; use 0 to 255"),
         ((*CAMERAS, "--min-confidence", 3), "min_confidence is 3, but preset sad has no confidence"),
+        ((*CAMERAS, "--set", "reference=right"), "depth in metres is the left view's"),
         (("--measured-only",), "--measured-only is about depth in metres"),
         (("--disparity-error", 0.5), "--disparity-error 0.5 is about depth in metres"),
         ((*CAMERAS, "--disparity-error", -1), "--disparity-error -1 is no error"),
@@ -97,6 +98,25 @@ def test_ros(softdepth, frames, tmp_path):  # noqa: F811
 def test_a_rig_that_is_none(softdepth, tmp_path, frames, rig):  # noqa: F811
     bag = record(tmp_path / "bag", Recording(frames(1), frames(1)))
     assert "is not LEFT,RIGHT" in softdepth("ros", bag, "--rig", rig, "-o", tmp_path / "o").error
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (("--tolerance", -1), "--tolerance -1 is no time"),
+        (("--tolerance", "nan"), "--tolerance nan is no time"),
+        (("--set", "reference=right"), "depth in metres is the left view's"),
+        (("--min-confidence", 9), "preset sad has no confidence"),
+        (("--rig", "/left/image_rect,/nothing"), "the bag has no topic '/nothing'"),
+        (("--rig", "/left/image_rect,/left/image_rect"), "has one topic for both views"),
+        (("--set", "max_width=8"), "the core is built for max_width = 8"),
+        (("--set", "criteria.0.window=15"), "the smallest frame is"),
+    ],
+)
+def test_what_a_bag_cannot_give(softdepth, tmp_path, frames, more, message):  # noqa: F811
+    bag = record(tmp_path / "bag", Recording(frames(1), frames(1)))
+    assert message in softdepth("ros", bag, *SMALL, *more, "-o", tmp_path / "o").error
+    assert {path.name for path in tmp_path.iterdir()} == {"bag"}
 
 
 def test_no_bag(softdepth, tmp_path):

@@ -8,10 +8,12 @@ from softdepth.hdl.built import check_built
 from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
+from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.stages import post_stages
-from softdepth.hdl.signatures import Status, pair_layout, result_layout
+from softdepth.hdl.signatures import STEERING, Status, pair_layout, result_layout, settings_ports
 from softdepth.hdl.winners.band_winners import BandWinners
 from softdepth.hdl.winners.rooms import winners_of
+from softdepth.hdl.winners.whole_winners import WholeWinners
 from softdepth.spec.config import Config
 
 
@@ -46,15 +48,16 @@ class StereoCore(wiring.Component):
     i : stream of `pair_layout(config.pixel)`.
     o : stream of `result_layout(config)`, one result for each pixel, in the same order.
     status : counters of broken input.
+    settings, faults : with ``settings``, what `settings_layout` says, and the faults of the clock before.
     """
 
     latency: int | None = None
     full_rate_latency: int | None = None
     fifo_depth: int | None = None
 
-    def __init__(self, config: Config) -> None:
+    def __init__(self, config: Config, *, settings: bool = False) -> None:
         check_built(config)
-        self._config = config
+        self._config, self._takes_settings = config, settings
         self._front = Front(config)
         self._costs = costs_of(config, self._front.layout)
         self._winners = winners_of(config, self._costs)
@@ -68,6 +71,7 @@ class StereoCore(wiring.Component):
                 "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(result_layout(config))),
                 "status": Out(Status),
+                **(settings_ports(config) if settings else {}),
             }
         )
 
@@ -82,6 +86,8 @@ class StereoCore(wiring.Component):
             m.submodules[name] = stage
             wiring.connect(m, results, stage.i)
             results = stage.o
+        if self._takes_settings:
+            self._set(m)
         found, o = results.payload, self.o.payload
         m.d.comb += [
             self.status.eq(self._front.status),
@@ -91,3 +97,14 @@ class StereoCore(wiring.Component):
             *(o[name].eq(found[name]) for name in o.shape().members if name != "disparity"),
         ]
         return m
+
+    def _set(self, m: Module) -> None:
+        """Thresholds are those that the settings say, and not the configuration's."""
+        settings, post = self.settings, self._config.post
+        m.d.comb += self.faults.eq(self._front.faults)
+        m.d.comb += [getattr(self._front, name).eq(settings[name]) for name in STEERING]
+        if post.check and isinstance(self._winners, WholeWinners):
+            m.d.comb += self._winners.tolerance.eq(settings.tolerance)
+        island = self._post.get("island")
+        if isinstance(island, Island):
+            m.d.comb += island.least.eq(settings.island)

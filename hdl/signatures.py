@@ -5,11 +5,15 @@ and any stall pattern leaves it intact.
 """
 
 from amaranth.hdl import Shape, unsigned
-from amaranth.lib import data
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
 
 from softdepth.spec.config import CONFIDENCE_BITS, Config, PixelFormat
+from softdepth.spec.post import ISLAND_REACH
 
 COUNTER_BITS = 16
+TOLERANCE_BITS = 4
+ISLAND_BITS = ((2 * ISLAND_REACH + 1) ** 2).bit_length()
 
 
 def pixel_layout(pixel: PixelFormat) -> data.ArrayLayout:
@@ -50,6 +54,32 @@ def result_layout(config: Config) -> data.StructLayout:
     )
 
 
+STEERING = ("hold", "skip", "clear")
+"""Of the settings, what the first room looks at."""
+
+
+def settings_layout(config: Config) -> data.StructLayout:
+    """What a core that takes settings is told while it runs; thresholds where the configuration has them.
+
+    ``hold``: no frame begins: its first pixel waits. ``skip``: frames that begin are dropped whole.
+    ``clear``: the counters of broken input begin at 0. The others are `Post`'s, and may change while no
+    frame is inside.
+    """
+    post = config.post
+    return data.StructLayout(
+        {
+            **dict.fromkeys(STEERING, 1),
+            **({"tolerance": unsigned(TOLERANCE_BITS)} if post.check else {}),
+            **({"island": unsigned(ISLAND_BITS)} if post.island else {}),
+        }
+    )
+
+
+def settings_ports(config: Config) -> dict[str, wiring.Member]:
+    """The ports that a core has besides when it takes settings."""
+    return {"settings": In(settings_layout(config)), "faults": Out(Faults)}
+
+
 Status = data.StructLayout(
     {
         "short_lines": unsigned(COUNTER_BITS),
@@ -64,3 +94,6 @@ Status = data.StructLayout(
 to the frame's or the core's width. ``early_starts``: a start of frame before the running frame's
 end. ``missing_starts``: times that pixels outside any frame were dropped.
 """
+
+Faults = data.StructLayout(dict.fromkeys(Status.members, 1))
+"""Which of the faults of `Status` was met in the clock before."""

@@ -4,7 +4,7 @@ from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.signatures import COUNTER_BITS, Status
+from softdepth.hdl.signatures import COUNTER_BITS, Faults, Status
 
 
 class FaultCounters(wiring.Component):
@@ -16,13 +16,15 @@ class FaultCounters(wiring.Component):
     Members
     -------
     short_lines, long_lines, early_starts, missing_starts : such a fault is met in this clock.
+    clear : the counters begin at 0.
+    met : the faults of the clock before.
     status : the counters since reset; they stay at their greatest value.
     """
 
     latency = 2
 
     def __init__(self) -> None:
-        super().__init__({**{name: In(1) for name in Status.members}, "status": Out(Status)})
+        super().__init__({**{name: In(1) for name in Status.members}, "clear": In(1), "met": Out(Faults), "status": Out(Status)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
@@ -30,6 +32,9 @@ class FaultCounters(wiring.Component):
             met = Signal(name=f"met_{name}")
             counter = self.status[name]
             m.d.sync += met.eq(getattr(self, name))
+            m.d.comb += self.met[name].eq(met)
             with m.If(met & (counter != 2**COUNTER_BITS - 1)):
                 m.d.sync += counter.eq(counter + 1)
+            with m.If(self.clear):
+                m.d.sync += counter.eq(0)
         return m

@@ -6,7 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.fault_counters import FaultCounters
 from softdepth.hdl.front.height_learner import HeightLearner
-from softdepth.hdl.signatures import Status, pair_layout
+from softdepth.hdl.signatures import Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
 
@@ -50,7 +50,7 @@ class FrameGuard(wiring.Component):
 
     States
     ------
-    OUTSIDE : no frame is open. DROP : the same, and pixels that belong to none have come.
+    OUTSIDE : no frame is open. IGNORE : the same, in a frame that is skipped. DROP : the same, and pixels that belong to none have come.
     BETWEEN : a frame is open, and a line of it is complete. LINE : the line has begun.
     PAD : a short line is filled with its last pixel.
     SKIP : the rest of a line that was cut is dropped. SKIP_LAST : the same, of a frame's last line.
@@ -60,6 +60,10 @@ class FrameGuard(wiring.Component):
     -------
     i : pixel pairs with raw markers. ``ready`` depends on ``valid``.
     o : well-formed items, in the same clock.
+    hold : no frame begins: its first pixel waits, and ends the frame before as it does otherwise.
+    skip : a frame that begins is dropped whole, and nobody counts it.
+    clear : the counters begin at 0.
+    faults : what was met in the clock before.
     status : counters of what was mended.
     """
 
@@ -69,6 +73,8 @@ class FrameGuard(wiring.Component):
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(item_layout(config))),
+                **{name: In(1) for name in ("hold", "skip", "clear")},
+                "faults": Out(Faults),
                 "status": Out(Status),
             }
         )
@@ -79,7 +85,11 @@ class FrameGuard(wiring.Component):
         pair, item = self.i.payload, self.o.payload
         m.submodules.learner = learner = HeightLearner(config)
         m.submodules.counters = counters = FaultCounters()
-        m.d.comb += self.status.eq(counters.status)
+        m.d.comb += [
+            self.status.eq(counters.status),
+            self.faults.eq(counters.met),
+            counters.clear.eq(self.clear),
+        ]
 
         starts = Signal()
         offers_start, offers_rest = (
@@ -177,20 +187,29 @@ class FrameGuard(wiring.Component):
                         with m.If(cut):
                             m.next = "SKIP"
 
-            with m.State("OUTSIDE"):
-                with m.If(offers_start):
+            def begin() -> None:
+                """A frame begins, unless it has to wait or is skipped."""
+                with m.If(offers_start & self.skip):
+                    m.d.comb += drops.eq(1)
+                    m.next = "IGNORE"
+                with m.Elif(offers_start & ~self.hold):
                     pass_on()
+
+            with m.State("OUTSIDE"):
+                begin()
                 with m.If(offers_rest):
                     m.d.comb += [drops.eq(1), counters.missing_starts.eq(1)]
                     m.next = "DROP"
+            with m.State("IGNORE"):
+                begin()
+                with m.If(offers_rest):
+                    m.d.comb += drops.eq(1)
             with m.State("DROP"):
-                with m.If(offers_start):
-                    pass_on()
+                begin()
                 with m.If(offers_rest):
                     m.d.comb += drops.eq(1)
             with m.State("SKIP_LAST"):
-                with m.If(offers_start):
-                    pass_on()
+                begin()
                 with m.If(offers_rest):
                     m.d.comb += drops.eq(1)
                     with m.If(eol):

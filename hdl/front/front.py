@@ -9,7 +9,7 @@ from softdepth.hdl.front.descriptors import Descriptors
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.front.item_queue import ItemQueue
-from softdepth.hdl.signatures import Status, pair_layout
+from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config, Gradient
 
 
@@ -27,7 +27,7 @@ class Front(wiring.Component):
     -------
     i : stream of `pair_layout(config.pixel)`.
     o : stream of `layout`: `item_layout` of whole frames, or the raster of `Descriptors`.
-    status : counters of broken input.
+    hold, skip, clear, faults, status : as of `FrameGuard`.
     """
 
     latency = ItemQueue.latency
@@ -45,6 +45,8 @@ class Front(wiring.Component):
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(self.layout)),
+                **{name: In(1) for name in STEERING},
+                "faults": Out(Faults),
                 "status": Out(Status),
             }
         )
@@ -59,6 +61,8 @@ class Front(wiring.Component):
             guard.i.payload.eq(self.i.payload),
             self.i.ready.eq(guard.i.ready & ~ResetSignal("sync")),
             self.status.eq(guard.status),
+            self.faults.eq(guard.faults),
+            *(getattr(guard, name).eq(getattr(self, name)) for name in STEERING),
         ]
         wiring.connect(m, guard.o, queue.i)
         if self._descriptors is None:

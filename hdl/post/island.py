@@ -8,6 +8,7 @@ from softdepth.hdl.arithmetic.popcount import popcount
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
 from softdepth.hdl.post.stage import delayed, window_stage
+from softdepth.hdl.signatures import ISLAND_BITS
 from softdepth.spec.post import ISLAND_REACH
 from softdepth.spec.validity import Validity
 
@@ -21,12 +22,19 @@ class Island(wiring.Component):
     Members
     -------
     i, o : results, `post_layout`.
+    least : as the parameter, which is its value where it is not driven. It may change between frames.
     """
 
     def __init__(self, value_bits: int, colour_bits: int, max_width: int, least: int) -> None:
         self._layout = post_layout(value_bits, colour_bits)
-        self._max_width, self._least = max_width, least
-        super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
+        self._max_width = max_width
+        super().__init__(
+            {
+                "i": In(stream.Signature(self._layout)),
+                "o": Out(stream.Signature(self._layout)),
+                "least": In(ISLAND_BITS, init=least),
+            }
+        )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
@@ -35,7 +43,7 @@ class Island(wiring.Component):
         found = [element for row in window.window for element in row]
         count = Signal(range(len(found) + 1), reset_less=True)
         island = Signal(reset_less=True)
-        m.d.sync += [count.eq(popcount(m, found)), island.eq(count < self._least)]
+        m.d.sync += [count.eq(popcount(m, found)), island.eq(count < self.least)]
         latency = 2
         result = data.View(layout, delayed(m, Value.cast(window.companion), latency, "result"))
         falls = is_measured(result.code) & island

@@ -6,6 +6,7 @@ from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.signatures import TOLERANCE_BITS
 
 
 class LeftRight(wiring.Component):
@@ -24,6 +25,7 @@ class LeftRight(wiring.Component):
     valid : a slot's results are there.
     emits, winner, result : of the slot: whether it has a result, the left winner, and what belongs to it.
     right : the right winner that leaves with the slot.
+    tolerance : as the parameter, which is its value where it is not driven. It may change between frames.
     done : one slot's results are judged, `latency` clocks later, whether it has any or not.
     o_emits, agrees, o : it has, the views agree, and what belonged to it.
     """
@@ -31,7 +33,7 @@ class LeftRight(wiring.Component):
     latency = 2
 
     def __init__(self, disparities: int, result: ShapeLike, tolerance: int) -> None:
-        self._disparities, self._result, self._tolerance = disparities, result, tolerance
+        self._disparities, self._result = disparities, result
         winner = range(disparities)
         super().__init__(
             {
@@ -40,6 +42,7 @@ class LeftRight(wiring.Component):
                 "winner": In(winner),
                 "result": In(result),
                 "right": In(winner),
+                "tolerance": In(TOLERANCE_BITS, init=tolerance),
                 "done": Out(1),
                 "o_emits": Out(1),
                 "agrees": Out(1),
@@ -90,7 +93,7 @@ class LeftRight(wiring.Component):
         m.d.sync += [
             done.eq(taken),
             emits.eq(left_emits),
-            agrees.eq(Mux(difference[-1], -difference, difference) <= self._tolerance),
+            agrees.eq(Mux(difference[-1], -difference, difference) <= self.tolerance),
             result.eq(left.result),
         ]
         m.d.comb += [

@@ -15,6 +15,7 @@ from softdepth.hdl.post.layout import post_layout
 from softdepth.hdl.post.left_right import LeftRight
 from softdepth.hdl.post.sixteenths import Sixteenths
 from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.signatures import TOLERANCE_BITS
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.right_winner import RightWinner
@@ -30,6 +31,7 @@ class WholeWinners(wiring.Component):
     -------
     The ports of `winner_ports` with the tags of `WholeCosts`; a slot begins ``ahead`` clocks before its first
     costs. And
+    tolerance : of the check, `Post.tolerance` where it is not driven. It may change between frames.
     o : a stream of results, `post_layout`.
     """
 
@@ -42,6 +44,7 @@ class WholeWinners(wiring.Component):
         super().__init__(
             {
                 **winner_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=self._tags),
+                "tolerance": In(TOLERANCE_BITS, init=config.post.tolerance),
                 "o": Out(stream.Signature(self.layout)),
             }
         )
@@ -134,6 +137,7 @@ class WholeWinners(wiring.Component):
             m.submodules.right = right = RightWinner(lanes, steps, self._maximum)
             m.submodules.check = check = LeftRight(config.disparities, found, post.tolerance)
             m.d.comb += [
+                check.tolerance.eq(self.tolerance),
                 right.valid.eq(self.valid),
                 right.first.eq(self.first),
                 right.last.eq(self.last),

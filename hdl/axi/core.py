@@ -1,0 +1,188 @@
+"""The core with AXI4-Stream Video in and out, and registers."""
+
+from amaranth.hdl import Cat, ClockDomain, ClockSignal, Module, Mux, ResetSignal, Signal, Value
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.axi.axi_lite import AxiLite, axi_lite
+from softdepth.hdl.axi.frames import Frames
+from softdepth.hdl.axi.markers import Markers
+from softdepth.hdl.axi.register_bank import RegisterBank, word_bits
+from softdepth.hdl.axi.tdata import extended, outcome_layout, pair_bits, pixel_of
+from softdepth.hdl.axi.wishbone import Wishbone, wishbone
+from softdepth.hdl.core import StereoCore
+from softdepth.hdl.signatures import Faults, Status, settings_layout
+from softdepth.spec.config import Config
+from softdepth.spec.edge import Edge
+from softdepth.spec.registers import UNSURE, registers
+from softdepth.spec.validity import Validity
+
+BUSES = {"axi-lite": ("s_axil", axi_lite, AxiLite), "wishbone": ("wb", wishbone, Wishbone)}
+"""Prefix of the ports, the ports, and the component, of each bus of the registers."""
+
+FLAGS = {
+    "short_lines": "flags_short_line",
+    "long_lines": "flags_long_line",
+    "early_starts": "flags_early_start",
+    "missing_starts": "flags_missing_start",
+}
+"""The flag that each fault raises."""
+
+
+class AxiCore(wiring.Component):
+    """A stereo core that drops into a design of AXI4-Stream Video.
+
+    Registers whose fields act from the next frame on are copied while no frame is inside: from a write to
+    one of them on, a frame that begins waits for the results of those before it. No frame is computed with
+    some old and some new values, and a result is that of the configuration with these values.
+
+    Throughput and latency are the core's; nothing is added to them.
+
+    Members
+    -------
+    aclk, aresetn : clock, and reset, active low and synchronous.
+    s_axis_* : both views' pixels, `pair_bits`; ``tuser`` starts a frame, ``tlast`` ends a line.
+    m_axis_* : results, `outcome_layout`, one for each pixel.
+    s_axil_*, or wb_* : the registers.
+    irq : a flag is raised whose interrupt is on; a level.
+    """
+
+    def __init__(self, config: Config, edge: Edge | None = None) -> None:
+        self._config = config
+        self._edge = edge or Edge()
+        self._core = StereoCore(config, settings=True)
+        self._registers = registers(config)
+        prefix, ports, _ = BUSES[self._edge.bus]
+        bus = ports(word_bits(self._registers))
+        super().__init__(
+            {
+                "aclk": In(1),
+                "aresetn": In(1),
+                **_stream("s_axis", pair_bits(config.pixel), In),
+                **_stream("m_axis", outcome_layout(config).size, Out),
+                **{f"{prefix}_{name}": member for name, member in bus.items()},
+                "irq": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.domains.sync = ClockDomain(local=True)
+        m.d.comb += [ClockSignal().eq(self.aclk), ResetSignal().eq(~self.aresetn)]
+        m.submodules.core = core = self._core
+        m.submodules.markers = markers = Markers()
+        m.submodules.frames = frames = Frames(self._most_frames)
+        m.submodules.bank = bank = RegisterBank(self._registers)
+        prefix, _, adapter = BUSES[self._edge.bus]
+        m.submodules.bus = bus = adapter(word_bits(self._registers))
+        wiring.connect(m, bus.bus, bank.bus)
+        for name, member in bus.signature.members.items():
+            if name != "bus":
+                outside, inside = getattr(self, f"{prefix}_{name}"), getattr(bus, name)
+                m.d.comb += inside.eq(outside) if member.flow is In else outside.eq(inside)
+
+        held, given = bank.held, bank.given
+        applied = self._taken_over(m, bank, frames)
+        pair = core.i.payload
+        size = self._config.pixel.size
+        m.d.comb += [
+            core.i.valid.eq(self.s_axis_tvalid),
+            self.s_axis_tready.eq(core.i.ready),
+            pair.left.eq(pixel_of(self.s_axis_tdata[:size], self._config.pixel)),
+            pair.right.eq(pixel_of(self.s_axis_tdata[size : 2 * size], self._config.pixel)),
+            pair.sof.eq(self.s_axis_tuser),
+            pair.eol.eq(markers.eol),
+            pair.eof.eq(markers.eof),
+            markers.taken.eq(core.i.valid & core.i.ready),
+            markers.sof.eq(self.s_axis_tuser),
+            markers.last.eq(self.s_axis_tlast),
+            markers.width.eq(applied.geometry_width),
+            markers.height.eq(applied.geometry_height),
+            frames.begins.eq(markers.taken & self.s_axis_tuser & ~core.settings.skip),
+            core.settings.skip.eq(~held.control_enable),
+            core.settings.clear.eq(held.control_clear),
+            frames.clear.eq(held.control_clear),
+        ]
+        thresholds = {"tolerance": "check_tolerance", "island": "island_least"}
+        for name in settings_layout(self._config).members.keys() & thresholds.keys():
+            m.d.comb += core.settings[name].eq(applied[thresholds[name]])
+        self._give(m, applied, frames)
+
+        m.d.comb += [
+            given.status_busy.eq(frames.busy),
+            given.flags_frame.eq(frames.ended),
+            given.frames_count.eq(frames.count),
+            given.seen_width.eq(frames.width),
+            given.seen_height.eq(frames.height),
+            *(given[FLAGS[name]].eq(core.faults[name]) for name in Faults.members),
+            *(given[f"{name}_count"].eq(core.status[name]) for name in Status.members),
+            self.irq.eq(_any_of(held, "flags", "interrupts")),
+        ]
+        return m
+
+    @property
+    def _most_frames(self) -> int:
+        """Frames that can be inside: no frame has fewer pixels than `Config.min_width`."""
+        config = self._config
+        lines = 2 * config.max_height
+        return config.max_width * lines // config.min_width
+
+    def _taken_over(self, m: Module, bank: RegisterBank, frames: Frames) -> data.View:
+        """What the running frames are computed with."""
+        held = bank.held
+        fields = [f for r in self._registers if r.takeover for f in r.fields]
+        layout = data.StructLayout({f.name: f.width for f in fields})
+        applied = Signal(layout, init={f.name: f.reset for f in fields})
+        pending = Signal()
+        m.d.comb += [self._core.settings.hold.eq(pending), bank.given.status_pending.eq(pending)]
+        with m.If(bank.takeover):
+            m.d.sync += pending.eq(1)
+        with m.Elif(pending & ~frames.busy):
+            m.d.sync += [pending.eq(0), *(applied[f.name].eq(held[f.name]) for f in fields)]
+        return applied
+
+    def _give(self, m: Module, applied: data.View, frames: Frames) -> None:
+        """Results as they leave."""
+        config = self._config
+        result = self._core.o.payload
+        outcome = Signal(outcome_layout(config))
+        unsure = Signal()
+        if config.post.confidence:
+            measured = result.code < Validity.BORDER
+            m.d.comb += unsure.eq(measured & (result.confidence < applied.confidence_floor))
+            m.d.comb += outcome.confidence.eq(result.confidence)
+        code = Signal(UNSURE.bit_length())
+        m.d.comb += code.eq(Mux(unsure, UNSURE, result.code))
+        valid = (code < Validity.BORDER) | (code == Validity.FILLED)
+        disparity = extended(Value.cast(result.disparity), config.signed)
+        m.d.comb += [
+            outcome.disparity.eq(Mux(valid, disparity, applied.invalid_value)),
+            outcome.code.eq(code),
+            outcome.damaged.eq(result.damaged),
+            self.m_axis_tdata.eq(outcome),
+            self.m_axis_tvalid.eq(self._core.o.valid),
+            self.m_axis_tuser.eq(result.sof),
+            self.m_axis_tlast.eq(result.eol),
+            self._core.o.ready.eq(self.m_axis_tready),
+            frames.leaves.eq(self.m_axis_tvalid & self.m_axis_tready),
+            frames.eol.eq(result.eol),
+            frames.eof.eq(result.eof),
+        ]
+
+
+def _stream(prefix: str, bits: int, flow: wiring.Flow) -> dict[str, wiring.Member]:
+    """The ports of an AXI4-Stream Video interface that comes in, or goes out."""
+    against = Out if flow is In else In
+    return {
+        f"{prefix}_tdata": flow(bits),
+        f"{prefix}_tvalid": flow(1),
+        f"{prefix}_tready": against(1),
+        f"{prefix}_tuser": flow(1),
+        f"{prefix}_tlast": flow(1),
+    }
+
+
+def _any_of(held: data.View, values: str, masks: str) -> Value:
+    """Whether a field of one register is set whose namesake in another is too."""
+    names = [name.removeprefix(f"{values}_") for name in held.shape().members if name.startswith(f"{values}_")]
+    return Cat(held[f"{values}_{name}"] & held[f"{masks}_{name}"] for name in names).any()

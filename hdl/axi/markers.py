@@ -1,0 +1,48 @@
+"""Start of frame and end of line into the core's markers."""
+
+from amaranth.hdl import Module, Mux, Signal
+from amaranth.lib import wiring
+from amaranth.lib.wiring import In, Out
+
+GEOMETRY_BITS = 16
+
+
+class Markers(wiring.Component):
+    """Ends of lines and frames, as marked or by the geometry that was set. In the same clock.
+
+    Members
+    -------
+    taken : a pixel is taken in this clock.
+    sof, last : its marks: it starts a frame, it ends a line.
+    width, height : what was set; 0 is nothing.
+    eol, eof : it ends a line, or a frame. Without a height, ``eof`` is 0.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(
+            {
+                "taken": In(1),
+                "sof": In(1),
+                "last": In(1),
+                "width": In(GEOMETRY_BITS),
+                "height": In(GEOMETRY_BITS),
+                "eol": Out(1),
+                "eof": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        # Counted from 1, as the geometry is; a start of frame is at 1 wherever the counters are.
+        columns, rows = Signal(GEOMETRY_BITS, init=1), Signal(GEOMETRY_BITS, init=1)
+        column, row = Mux(self.sof, 1, columns), Mux(self.sof, 1, rows)
+        m.d.comb += [
+            self.eol.eq(Mux(self.width.any(), column == self.width, self.last)),
+            self.eof.eq(self.eol & (row == self.height)),
+        ]
+        with m.If(self.taken):
+            m.d.sync += [
+                columns.eq(Mux(self.eol, 1, column + 1)),
+                rows.eq(row + self.eol),
+            ]
+        return m

@@ -1,0 +1,52 @@
+"""What lies where in ``tdata``, after AMD's UG934 where that says it."""
+
+from amaranth.hdl import Cat, Const, Value
+from amaranth.lib import data
+
+from softdepth.spec.config import Config, PixelFormat
+
+BYTE = 8
+DISPARITY_BITS = 16
+"""A disparity fills two bytes; one that is signed keeps its sign."""
+
+CHANNELS = {1: (0,), 3: (1, 2, 0)}
+"""Of a pixel, lowest first: gray; or green, blue, red of red, green, blue."""
+
+
+def whole_bytes(bits: int) -> int:
+    """The next multiple of eight."""
+    return -(-bits // BYTE) * BYTE
+
+
+def view_bits(pixel: PixelFormat) -> int:
+    """Bits of ``tdata`` with one view's pixel."""
+    return whole_bytes(pixel.size)
+
+
+def pair_bits(pixel: PixelFormat) -> int:
+    """Bits of ``tdata`` with both: the left one lowest, the right one next to it, 0 above."""
+    return whole_bytes(2 * pixel.size)
+
+
+def pixel_of(bits: Value, pixel: PixelFormat) -> Value:
+    """A pixel as the core wants it, red lowest, of the same in UG934's order."""
+    order = CHANNELS[pixel.channels]
+    return Cat(bits.word_select(order.index(k), pixel.bits) for k in range(pixel.channels))
+
+
+def outcome_layout(config: Config) -> data.StructLayout:
+    """``tdata`` of a result, byte by byte, lowest first."""
+    return data.StructLayout(
+        {
+            "disparity": DISPARITY_BITS,
+            "code": BYTE - 1,
+            "damaged": 1,
+            **({"confidence": BYTE} if config.post.confidence else {}),
+        }
+    )
+
+
+def extended(value: Value, signed: bool) -> Value:
+    """A disparity in all of its bits."""
+    sign = value[-1] if signed else Const(0, 1)
+    return Cat(value, sign.replicate(DISPARITY_BITS - len(value)))

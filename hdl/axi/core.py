@@ -184,5 +184,7 @@ def _stream(prefix: str, bits: int, flow: wiring.Flow) -> dict[str, wiring.Membe
 
 def _any_of(held: data.View, values: str, masks: str) -> Value:
     """Whether a field of one register is set whose namesake in another is too."""
-    names = [name.removeprefix(f"{values}_") for name in held.shape().members if name.startswith(f"{values}_")]
+    names = [
+        name.removeprefix(f"{values}_") for name in held.shape().members if name.startswith(f"{values}_")
+    ]
     return Cat(held[f"{values}_{name}"] & held[f"{masks}_{name}"] for name in names).any()

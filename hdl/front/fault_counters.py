@@ -24,7 +24,14 @@ class FaultCounters(wiring.Component):
     latency = 2
 
     def __init__(self) -> None:
-        super().__init__({**{name: In(1) for name in Status.members}, "clear": In(1), "met": Out(Faults), "status": Out(Status)})
+        super().__init__(
+            {
+                **{name: In(1) for name in Status.members},
+                "clear": In(1),
+                "met": Out(Faults),
+                "status": Out(Status),
+            }
+        )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

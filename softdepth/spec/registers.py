@@ -81,7 +81,9 @@ def definitions(config: Config, *, separate: bool = False) -> dict[str, str]:
         "TOLERANCE": post.tolerance if post.check else None,
         "ISLAND": post.island or None,
     }
-    values |= {name: int(value) for name, value in optional.items() if value is not None and value is not False}
+    values |= {
+        name: int(value) for name, value in optional.items() if value is not None and value is not False
+    }
     return {f"SOFTDEPTH_{name}": str(value) for name, value in values.items()}
 
 
@@ -103,20 +105,21 @@ def _register(node: RegNode) -> Register:
         node.inst_name,
         node.absolute_address,
         bool(node.get_property("takeover")),
-        node.get_property("desc"),
+        node.get_property("desc") or "",
         tuple(_field(node, field) for field in node.fields()),
     )
 
 
 def _field(node: RegNode, field: FieldNode) -> RegisterField:
+    reset = field.get_property("reset")
     return RegisterField(
         f"{node.inst_name}_{field.inst_name}".lower(),
         field.low,
         field.width,
-        int(field.get_property("reset") or 0),
+        reset if isinstance(reset, int) else 0,
         field.is_sw_writable,
         field.is_hw_writable,
         bool(field.get_property("singlepulse")),
         bool(field.get_property("stickybit")),
-        field.get_property("desc"),
+        field.get_property("desc") or "",
     )

@@ -50,8 +50,8 @@ class FrameGuard(wiring.Component):
 
     States
     ------
-    OUTSIDE : no frame is open. IGNORE : the same, in a frame that is skipped. DROP : the same, and pixels that
-        belong to none have come.
+    OUTSIDE : no frame is open. IGNORE : the same, in a frame that is skipped.
+    DROP : no frame is open, and pixels that belong to none have come.
     BETWEEN : a frame is open, and a line of it is complete. LINE : the line has begun.
     PAD : a short line is filled with its last pixel.
     SKIP : the rest of a line that was cut is dropped. SKIP_LAST : the same, of a frame's last line.

@@ -2,7 +2,7 @@
 
 from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
-from amaranth.lib.wiring import Out
+from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.bundle import winner_ports

@@ -1,9 +1,5 @@
 """``softdepth info``: what a configuration amounts to, before anything is built."""
 
-import gc
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -12,7 +8,7 @@ from rich.table import Table
 from softdepth import screen
 from softdepth.cli import metres, options
 from softdepth.cli.bundle import bundled
-from softdepth.spec.config import MULTIPLIER_BITS, Census, Config, Gradient
+from softdepth.spec.config import MULTIPLIER_BITS, Config
 from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,12 +41,13 @@ def info(
 
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
+    from softdepth.hdl.asked import asked
     from softdepth.hdl.core import StereoCore
     from softdepth.hdl.signatures import pair_layout, result_layout
 
     if config.whole_frame:
         return _facts_of_whole(config, clock, width, height)
-    with _asked():
+    with asked():
         core = StereoCore(config)
         latency, full_rate_latency = core.latency, core.full_rate_latency
         del core  # it goes while Amaranth is silent
@@ -92,13 +89,13 @@ def metric_facts(config: Config, geometry: "Geometry") -> dict[str, str]:
 
 def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """The same of a core without a border band, whose stages hold their input back beyond a frame's edges."""
-    from softdepth.hdl.costs.comparison import plan
+    from softdepth.hdl.asked import asked
     from softdepth.hdl.signatures import pair_layout, result_layout
+    from softdepth.hdl.whole_latency import WholeLatency
 
-    reach = plan(config)
-    drain = config.disparities - 1 if config.post.check else 0
-    cycles = ((width + reach.right) * (height + reach.below) + drain) * config.steps
-    below = max(c.below for c in config.criteria if isinstance(c, Census | Gradient)) + config.post.below
+    with asked():
+        whole = WholeLatency.of(config)
+    cycles = whole.frame_clocks(width, height, config.steps)
     return {
         "candidates": f"{config.disparities}, {config.lanes} per clock",
         "clocks per pixel": str(config.steps),
@@ -106,7 +103,7 @@ def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> di
         "disparity": f"{config.result_bits} bits, {config.post.fraction_bits} of them below a pixel",
         "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
-        "latency": f"{below} rows below a result's own are seen first",
+        "latency": f"{whole.clocks} clocks after column {whole.column} of the line {whole.rows} below",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",
@@ -115,25 +112,15 @@ def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> di
 
 def memory_bits(config: Config) -> tuple[int, int]:
     """Bits of the core's line buffer, and of the row memories of all its lanes."""
+    from softdepth.hdl.asked import asked
     from softdepth.hdl.costs.criteria.column_sad import column_maximum
     from softdepth.hdl.costs.criteria.row_memory import RowMemory
     from softdepth.hdl.front.line_buffer import LineBuffer
 
-    with _asked():
+    with asked():
         lines = LineBuffer(2 * config.pixel.size, config.column_rows, config.max_width).bits
         rows = RowMemory(range(column_maximum(1, config.pixel) + 1), config.stored_rows, config.places).bits
     return lines, config.lanes * rows
-
-
-@contextmanager
-def _asked() -> Iterator[None]:
-    """Gateware is asked, not built; Amaranth would say so when Python comes to free its cycles."""
-    from amaranth.hdl import UnusedElaboratable
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UnusedElaboratable)
-        yield
-        gc.collect()
 
 
 def _check(config: Config, clock: float, width: int, height: int) -> None:

@@ -16,6 +16,7 @@ def localparams(interface: Interface) -> dict[str, int]:
             stem = f"{port.name}_{field.name}".upper()
             found[f"{stem}_LSB"] = field.low
             found[f"{stem}_BITS"] = field.width
+    found["O_PAYLOAD_DISPARITY_FRACTION_BITS"] = interface.config.post.fraction_bits
     return found | {f"CODE_{code.name}": code.value for code in interface.codes}
 
 
@@ -52,11 +53,22 @@ def as_json(interface: Interface) -> str:
         "clocks_per_pixel": config.steps,
         "latency": interface.latency,
         "latency_at_full_rate": interface.full_rate_latency,
-        "reach": {"right": config.reach_right, "rows": config.reach_rows},
+        **_needs(interface),
         "frame": frame,
         "configuration": config.model_dump(mode="json"),
     }
     return json.dumps(described, indent=2) + "\n"
+
+
+def _needs(interface: Interface) -> dict[str, Any]:
+    """From which pixel the latency counts."""
+    config, whole = interface.config, interface.whole
+    if whole is None:
+        return {"reach": {"right": config.reach_right, "rows": config.reach_rows}}
+    return {
+        "needs": {"column": whole.column, "rows": whole.rows},
+        "slots_beyond": {"right": whole.right, "below": whole.below, "behind": whole.drain},
+    }
 
 
 def _field(field: Field) -> dict[str, str | int]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from softdepth.export.constants import as_json, declarations
 from softdepth.export.head import head
 from softdepth.export.interface import interface_of
+from softdepth.hdl.built import check_built
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.text.words import PLAIN, RESERVED
 from softdepth.hdl.verilog import TOP, to_verilog
@@ -28,17 +29,13 @@ def check_export(config: Config, name: str = TOP) -> None:
             f"--name '{name}' is no name for a module",
             "use letters, digits and single underscores, beginning with a letter, and no word of Verilog",
         )
-    if config.whole_frame:
-        raise ConfigError(
-            f"'{config.name}' has no border band, and the text for its user is not written yet",
-            "export a configuration whose criteria are of kind 'sad', or call hdl.verilog.to_verilog",
-        )
     if config.reference == "right":
         raise ConfigError(
             "reference is 'right', but the core judges its left input's pixels: it cannot mirror lines",
             "export with reference = 'left', and feed the right image's lines as left and the left image's as"
             " right, each line with its last pixel first; so come the right view's results",
         )
+    check_built(config)
 
 
 def export_core(config: Config, name: str = TOP) -> Exported:

@@ -6,6 +6,7 @@ from importlib.metadata import version
 
 from softdepth.export.constants import span, template
 from softdepth.export.interface import Interface
+from softdepth.spec.config import Census
 
 WIDTH = 107
 """Columns of the comment's text."""
@@ -49,23 +50,48 @@ def _ports(interface: Interface) -> Iterator[str]:
 
 def _use(interface: Interface) -> Iterator[str]:
     c = interface.config
+    census = any(isinstance(criterion, Census) for criterion in c.criteria)
     yield "How to use it:"
     for text in (
         "Pixels come row by row, from the top left; there is one result for each pixel, in the same order."
         " A transfer is a rising edge of clk with valid and ready both 1. An offer stands until it is taken.",
-        f"Time: a pixel takes {c.steps} clock{'s' * (c.steps > 1)}, without a pause between lines or frames."
-        f" The result of (x, y) needs the pixel at (x + {c.reach_right}, y + {c.reach_rows}). With o_ready"
-        f" at 1 it can be taken {interface.latency} clocks after that pixel is, where pixels come slowly, and"
-        f" {interface.full_rate_latency} clocks after it where they are always on offer: some wait in a queue"
-        " then. The results of a frame's last rows and columns follow by themselves.",
-        f"Frames: {c.min_width} x {c.min_height} to {c.max_width} x {c.max_height} pixels. Lower ones"
-        " have no result that is a measurement, narrower ones are filled and marked as damaged."
-        " A frame's first line gives its width.",
-        "Memories have no initial words in synthesis, and need none; simulators find them cleared.",
+        _time(interface),
+        f"Frames: {c.min_width} x {c.min_height} to {c.max_width} x {c.max_height} pixels."
+        + (" Lower ones have no result that is a measurement." if c.min_height > 1 else "")
+        + " Narrower ones are filled and marked as damaged. A frame's first line gives its width.",
+        "Memories have no initial words in synthesis, and need none; simulators find them cleared."
+        + (" The table of reciprocals is the exception." if census else ""),
     ):
         yield from textwrap.wrap(
             text, WIDTH, initial_indent="  - ", subsequent_indent="    ", break_on_hyphens=False
         )
+
+
+def _time(interface: Interface) -> str:
+    c, whole = interface.config, interface.whole
+    clocks = f"{c.steps} clock{'s' * (c.steps > 1)}"
+    if whole is None:
+        return (
+            f"Time: a pixel takes {clocks}, without a pause between lines or frames."
+            f" The result of (x, y) needs the pixel at (x + {c.reach_right}, y + {c.reach_rows}). With"
+            f" o_ready at 1 it can be taken {interface.latency} clocks after that pixel is, where pixels come"
+            f" slowly, and {interface.full_rate_latency} clocks after it where they are always on offer: some"
+            " wait in a queue then. The results of a frame's last rows and columns follow by themselves."
+        )
+    text = (
+        f"Time: a pixel takes {clocks}, a line as much as {whole.right} pixels more, a frame as much as"
+        f" {whole.below} lines more" + (f" and {whole.drain} pixels" if whole.drain else "") + "; i_ready is"
+        " low meanwhile. The results of line y need the pixels up to column"
+        f" {whole.column} of line y + {whole.rows}. With o_ready at 1 the line's last can be taken"
+        f" {interface.latency} clocks after that pixel is, where pixels come slowly and lines have at least"
+        f" {max(c.disparities, whole.column + 1)}; where they are always on offer, some wait in queues."
+    )
+    if c.post.fill:
+        text += (
+            " Results that are filled wait for the next measurement of their line, or its end, and follow"
+            " it a clock each."
+        )
+    return text + " The results of a frame's last rows follow by themselves."
 
 
 def _table(rows: list[tuple[str, ...]]) -> Iterator[str]:

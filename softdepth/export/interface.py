@@ -11,7 +11,8 @@ from softdepth.hdl.core import StereoCore
 from softdepth.hdl.signatures import COUNTER_BITS
 from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of
 from softdepth.hdl.text.rtlil import Port as Source
-from softdepth.spec.config import Config, PixelFormat
+from softdepth.hdl.whole_latency import WholeLatency
+from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
 
 COLOURS = {1: ("gray",), 3: ("red", "green", "blue")}
@@ -48,26 +49,30 @@ class Interface:
     name : of its module.
     ports : in the module's order.
     codes : validity codes that can occur.
-    latency, full_rate_latency : as `StereoCore` states them.
+    latency, full_rate_latency : clocks, as `StereoCore` states them of cores with a border band.
+    whole : of cores without one, from which pixel `latency` counts, and what a frame takes.
     """
 
     name: str
     config: Config
     ports: tuple[Port, ...]
     codes: tuple[Validity, ...]
-    latency: int | None
+    latency: int
     full_rate_latency: int | None
+    whole: WholeLatency | None = None
 
 
 def interface_of(core: StereoCore, config: Config, name: str) -> Interface:
     """Describe `core`, which was made of `config`, as the module `name`."""
     ports = [Port(each, "input", 1, _MEANINGS[each]) for each in (CLOCK, RESET)]
-    ports += [_port(source, config.pixel) for source in ports_of(core)]
+    ports += [_port(source, config) for source in ports_of(core)]
     measured = (Validity.FULL, Validity.PARTIAL, Validity.BORDER)
     few = core.o.payload.shape()["code"].width == max(measured).bit_length()
-    return Interface(
-        name, config, tuple(ports), measured if few else tuple(Validity), core.latency, core.full_rate_latency
-    )
+    described = (name, config, tuple(ports), measured if few else tuple(Validity))
+    if core.latency is not None:
+        return Interface(*described, core.latency, core.full_rate_latency)
+    whole = WholeLatency.of(config)
+    return Interface(*described, whole.clocks, None, whole)
 
 
 _MEANINGS = {
@@ -87,6 +92,7 @@ _MEANINGS = {
     "i_payload.eof": "end of frame: 1 with a frame's last pixel; 0 for ever if the source cannot tell",
     "o_payload.disparity": "by how many pixels the match lies further left in the right image",
     "o_payload.code": "why this is a measurement, or is none: see the codes below",
+    "o_payload.confidence": "how far the best candidate is ahead of others: 255 is surest, 0 if not measured",
     "o_payload.sof": "start of frame: 1 with a frame's first result",
     "o_payload.eol": "end of line: 1 with a line's last result",
     "o_payload.eof": "end of frame: 1 with a frame's last result",
@@ -99,20 +105,23 @@ _MEANINGS = {
 """Of every port and field. What is not listed cannot be exported: a stranger would not know what it is."""
 
 
-def _port(source: Source, pixel: PixelFormat) -> Port:
+def _port(source: Source, config: Config) -> Port:
     value = source.value
-    fields = tuple(_fields(source.name, value.shape(), pixel)) if isinstance(value, data.View) else ()
+    fields = tuple(_fields(source.name, value.shape(), config)) if isinstance(value, data.View) else ()
     direction = "input" if source.flow is In else "output"
     return Port(source.name, direction, len(Value.cast(value)), _MEANINGS[source.name], fields)
 
 
-def _fields(port: str, layout: data.Layout, pixel: PixelFormat) -> Iterator[Field]:
+def _fields(port: str, layout: data.Layout, config: Config) -> Iterator[Field]:
     for name, field in layout:
         meaning = _MEANINGS[f"{port}.{name}"]
+        if name == "disparity" and (below := config.post.fraction_bits):
+            meaning += f", times {2**below}: its lowest {below} bits are below a pixel"
         if port == "status":
             meaning += f"; stays at {2**COUNTER_BITS - 1}"
         yield Field(str(name), field.offset, field.width, meaning)
         if port == "i_payload" and name in ("left", "right"):
+            pixel = config.pixel
             colours = COLOURS[pixel.channels]
             for k, colour in enumerate(colours if len(colours) > 1 else ()):
                 low = field.offset + k * pixel.bits

@@ -37,8 +37,7 @@ class Reading:
 
 def built_presets() -> list[str]:
     """Presets that have gateware and can be exported."""
-    configs = {name: Config.preset(name) for name in PRESETS}
-    return [name for name, config in configs.items() if not missing(config) and not config.whole_frame]
+    return [name for name in PRESETS if not missing(Config.preset(name))]
 
 
 def read(verilog: str, commands: str) -> Reading:

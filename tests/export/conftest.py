@@ -15,6 +15,10 @@ SMALL: dict[str, Config] = {
     "paper": Config.preset("paper").override([*SIZE, "disparities=8", "lanes=2"]),
     "compact": Config.preset("compact").override([*SIZE, "disparities=6", "lanes=6", "operator=min"]),
     "lite": Config.preset("lite").override([*SIZE, "disparities=19", "lanes=1", "stored_rows=0"]),
+    "robust": Config.preset("robust").override([*SIZE, "disparities=4", "lanes=2"]),
+    "robust-small": Config.preset("robust-small").override(
+        [*SIZE, "disparities=4", "lanes=4", "pixel=gray8", "post.fill=false"]
+    ),
 }
 """Cores that build in a moment: other presets, lanes, operators, memories."""
 

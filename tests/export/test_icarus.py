@@ -1,5 +1,6 @@
 """An exported core in Icarus, against the fixed model: from time 0 on, under both standards, without an X."""
 
+import json
 import re
 from itertools import chain
 from pathlib import Path
@@ -12,6 +13,7 @@ from softdepth.export.core_file import export_core
 from softdepth.golden.fixed_model import disparity
 from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
 from softdepth.spec.config import Config
+from softdepth.spec.validity import Validity
 from tests.export.conftest import SIZE, SMALL, exported
 from tests.hdl.test_core import images
 from tests.support.icarus import Seen, needs_icarus, run_icarus
@@ -22,8 +24,14 @@ Pair = tuple[np.ndarray, np.ndarray]
 
 
 def pairs_for(config: Config) -> list[Pair]:
-    width, height = config.min_width + 5, config.min_height + 1
-    return [images(1, width, height), images(2, width, height, 3)]
+    width, height = config.min_width + 5, config.min_height + 1 + 4 * config.whole_frame
+    pairs = [images(1, width, height), images(2, width, height, 3)]
+    return [of_pixel(pair, config) for pair in pairs]
+
+
+def of_pixel(pair: Pair, config: Config) -> Pair:
+    """A colour pair, or its green channels."""
+    return pair if config.pixel.channels > 1 else (pair[0][:, :, 1], pair[1][:, :, 1])
 
 
 def check(seen: Seen, pairs: list[Pair], config: Config) -> None:
@@ -35,12 +43,13 @@ def check(seen: Seen, pairs: list[Pair], config: Config) -> None:
         expected = disparity(*pair, config)
         assert np.array_equal(found.disparity, expected.disparity)
         assert np.array_equal(found.code, expected.code)
+        assert np.array_equal(found.confidence, expected.confidence)
     assert not any(frame["damaged"].any() for frame in frames)
     assert seen.status == 0
 
 
-def pixels(pairs: list[Pair]) -> list[int]:
-    return list(chain.from_iterable(pack_frame(*pair).tolist() for pair in pairs))
+def pixels(pairs: list[Pair], config: Config) -> list[int]:
+    return list(chain.from_iterable(pack_frame(*pair, pixel=config.pixel).tolist() for pair in pairs))
 
 
 @pytest.mark.parametrize(("standard", "reset_clocks"), [("-g2005", 1), ("-g2012", 1), ("-g2012", 40)])
@@ -51,7 +60,7 @@ def test_frames_equal_the_fixed_model(name: str, standard: str, reset_clocks: in
     text = exported(name).verilog
     seen = run_icarus(
         text,
-        pixels(pairs),
+        pixels(pairs, config),
         tmp_path,
         standard=standard,
         reset_clocks=reset_clocks,
@@ -67,7 +76,7 @@ def test_what_memories_hold_at_first_never_shows(name: str, tmp_path: Path) -> N
     config, pairs = SMALL[name], pairs_for(SMALL[name])
     text, changed = re.subn(r"(\w+\[word\]) = \d+'h0;", r"\1 = {16{$random}};", exported(name).verilog)
     assert changed > 1
-    check(run_icarus(text, pixels(pairs), tmp_path), pairs, config)
+    check(run_icarus(text, pixels(pairs, config), tmp_path), pairs, config)
 
 
 def test_the_bench_sees_an_unknown_bit_and_a_lost_pixel(tmp_path: Path) -> None:
@@ -75,10 +84,12 @@ def test_the_bench_sees_an_unknown_bit_and_a_lost_pixel(tmp_path: Path) -> None:
     text = exported("sad").verilog
     unknown = re.sub(r"(storage\[\w+\] <= )[^;]*;", r"\1'bx;", text)  # the result FIFO's memory
     assert unknown != text
-    assert any(line.startswith("X") for line in run_icarus(unknown, pixels(pairs), tmp_path).complaints)
+    assert any(
+        line.startswith("X") for line in run_icarus(unknown, pixels(pairs, config), tmp_path).complaints
+    )
     always_ready = re.sub(r"^  assign i_ready = .*;$", "  assign i_ready = 1'b1;", text, flags=re.MULTILINE)
     assert always_ready != text
-    seen = run_icarus(always_ready, pixels(pairs), tmp_path, reset_clocks=3)
+    seen = run_icarus(always_ready, pixels(pairs, config), tmp_path, reset_clocks=3)
     assert any(line.startswith("W") for line in seen.complaints)
     with pytest.raises(AssertionError):
         check(seen, pairs, config)
@@ -102,7 +113,7 @@ def test_latencies_are_as_stated(preset: str, disparities: int, lanes: int, tmp_
     behind = config.reach_rows * width + config.reach_right
 
     def latencies(gap: int) -> set[int]:
-        seen = run_icarus(core.verilog, pixels([pair]), tmp_path, gap=gap)
+        seen = run_icarus(core.verilog, pixels([pair], config), tmp_path, gap=gap)
         assert not seen.complaints
         # The queue has filled when the first of these pixels comes.
         return {seen.given[k] - seen.taken[k + behind] for k in range(len(seen.taken) - behind)}
@@ -119,3 +130,54 @@ def test_latencies_are_as_stated(preset: str, disparities: int, lanes: int, tmp_
     found = facts(config, 100, 64, 48)
     assert found["latency"].startswith(f"{idle} clocks after")
     assert found["latency at full rate"].startswith(f"{full} clocks where")
+
+
+WHOLE = ["max_width=16", "max_height=32", "disparities=4", "lanes=2"]
+LESS = ["post.check=false", "post.median=0", "post.masked_median=0", "post.fill=false"]
+
+
+@pytest.mark.parametrize(
+    ("preset", "changes"),
+    [
+        ("robust-small", []),
+        ("robust-small", LESS),
+        ("robust", ["post.masked_median=0", "pixel=gray8"]),
+        ("robust-small", [*LESS[2:], "lanes=1", "post.fraction_bits=0"]),
+    ],
+)
+def test_latencies_without_a_border_band(preset: str, changes: list[str], tmp_path: Path) -> None:
+    """A line's last result, from the pixel that the head names, where pixels come slowly."""
+    config = Config.preset(preset).override([*WHOLE, *changes])
+    core = export_core(config)
+    needs = json.loads(core.json)["needs"]
+    width, height = 8, needs["rows"] + 2
+    pair = of_pixel(images(1, width, height), config)
+    seen = run_icarus(
+        core.verilog, pixels([pair], config), tmp_path, gap=(width + 15) * config.steps, patience=2000
+    )
+    check(seen, [pair], config)
+    measured = disparity(*pair, config).code[:, -1] < Validity.BORDER
+    times = {
+        seen.given[y * width + width - 1] - seen.taken[(y + needs["rows"]) * width + needs["column"]]
+        for y in range(height - needs["rows"])
+        if measured[y]
+    }
+    text = re.sub(r"\n//\s+", " ", core.verilog)
+    (stated,) = re.findall(
+        rf"up to column {needs['column']} of line y \+ {needs['rows']}\. With o_ready at 1 the line's last"
+        r" can be taken (\d+) clocks after that pixel is, where pixels come slowly",
+        text,
+    )
+    assert times == {int(stated)}
+    assert f'"latency": {stated},' in core.json
+    assert facts(config, 100, 16, 16)["latency"].startswith(f"{stated} clocks after")
+
+
+def test_frames_without_a_border_band_follow_as_stated(tmp_path: Path) -> None:
+    """Clocks between the first pixels of two frames, where pixels are always on offer, and by `info`."""
+    config = Config.preset("robust-small").override([*WHOLE, "pixel=gray8"])
+    pairs = [of_pixel(images(seed, 12, 20), config) for seed in range(4)]
+    seen = run_icarus(export_core(config).verilog, pixels(pairs, config), tmp_path, patience=2000)
+    check(seen, pairs, config)
+    apart = np.diff(seen.taken[:: 12 * 20])
+    assert facts(config, 100, 12, 20)["clocks per frame"] == f"{apart[-1]} at 12x20"

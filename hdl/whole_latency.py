@@ -1,0 +1,112 @@
+"""When the results of a core without a border band leave it: from which pixel, and how many clocks after."""
+
+from dataclasses import dataclass
+
+from amaranth.hdl import unsigned
+
+from softdepth.hdl.asked import asked
+from softdepth.hdl.costs.comparison import plan
+from softdepth.hdl.costs.rooms import costs_of
+from softdepth.hdl.front.census import CENSUS_REACH
+from softdepth.hdl.front.census import Census as CensusBlock
+from softdepth.hdl.front.descriptors import GRADIENT_REACH
+from softdepth.hdl.front.front import Front
+from softdepth.hdl.front.gradient import Gradient as GradientBlock
+from softdepth.hdl.front.tall_window import TallWindow
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
+from softdepth.hdl.memory.window import Window
+from softdepth.hdl.post.confidence import Confidence
+from softdepth.hdl.post.left_right import LeftRight
+from softdepth.hdl.post.sixteenths import Sixteenths
+from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.winners.neighbours import Neighbours
+from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.spec.config import Config, Gradient
+from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
+
+FRAME_ENDS_LATENCY = 1
+FILL_LATENCY = 4
+"""Of a measurement; what has none waits for the next, or the line's end."""
+ISLAND_LATENCY = 2
+
+
+@dataclass(frozen=True)
+class WholeLatency:
+    """Of `config`'s core, for lines of at least ``disparities`` and ``column + 1`` pixels.
+
+    Members
+    -------
+    rows, column : the last pixel that line y's results need is at (column, y + rows).
+    clocks : from the clock in which that pixel is taken to that in which the line's last result can be,
+        where pixels come slowly and that result is a measurement.
+    right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
+        beyond a line, lines below a frame, and behind it.
+    """
+
+    rows: int
+    column: int
+    clocks: int
+    right: int
+    below: int
+    drain: int
+
+    @classmethod
+    def of(cls, config: Config) -> "WholeLatency":
+        """Derived from what the core's blocks state."""
+        reach, post = plan(config), config.post
+        gradients = sum(isinstance(c.criterion, Gradient) for c in reach.comparisons)
+        ahead = CENSUS_REACH if gradients < len(reach.comparisons) else GRADIENT_REACH
+        # A line's last pixel waits for the next to come, which may be the frame's end; the right view's
+        # winners are known so many columns later, which are the next line's.
+        column = config.disparities - 2 + ahead if post.check else 0
+        with asked():
+            clocks = _up_to_winners(config, ahead, gradient=gradients > 0)
+        return cls(
+            rows=reach.below + post.below + ahead + 1,
+            column=column,
+            clocks=clocks + _behind(config),
+            right=reach.right,
+            below=reach.below,
+            drain=config.disparities - 1 if post.check else 0,
+        )
+
+    def frame_clocks(self, width: int, height: int, steps: int) -> int:
+        """From a frame's first pixel to the next one's, where pixels are always on offer."""
+        return ((width + self.right) * (height + self.below) + self.drain) * steps
+
+
+def _up_to_winners(config: Config, ahead: int, *, gradient: bool) -> int:
+    steps, post = config.steps, config.post
+    costs = costs_of(config, Front(config).layout)
+    cost, whole = unsigned(cost_bits(costs.maximum)), unsigned(0)
+    tree = ArgminTree(cost, whole, config.lanes)
+    sequence = ArgminSequence(candidate_layout(cost, whole, config.disparities), steps)
+    front = Front.latency + FRAME_ENDS_LATENCY
+    described = (
+        TallWindow.latency + (GradientBlock.latency if gradient else CensusBlock.latency) + QUEUE_LATENCY
+    )
+    judged = tree.latency + sequence.latency + steps
+    judged += Neighbours(config.lanes, steps, costs.maximum).latency
+    judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
+    checked = LeftRight.latency if post.check else ahead + plan(config).right * steps
+    return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
+
+
+def _behind(config: Config) -> int:
+    """Of the stages behind the winners: a window's last columns are its last one repeated."""
+    post = config.post
+    median = 1 + 2 * config.result_bits
+
+    def window(columns: int, latency: int) -> int:
+        return columns + Window.latency + latency + QUEUE_LATENCY
+
+    clocks = 0
+    if post.island:
+        clocks += window(ISLAND_REACH, ISLAND_LATENCY)
+    if post.fill:
+        clocks += FILL_LATENCY
+    if post.median:
+        clocks += window(MEDIAN_REACH, median)
+    if post.masked_median:
+        clocks += window(post.masked_median, median) + window(0, median)
+    return clocks

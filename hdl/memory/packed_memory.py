@@ -24,6 +24,8 @@ class PackedMemory(wiring.Component):
     ----------
     shape : of a word.
     depth : words.
+    registered : blocks have an output register each, before words are chosen from: ``data`` comes a clock
+        later and is held for one clock alone.
 
     Members
     -------
@@ -31,8 +33,8 @@ class PackedMemory(wiring.Component):
     write, write_at, written : a word to be stored.
     """
 
-    def __init__(self, shape: ShapeLike, depth: int) -> None:
-        self._depth = depth
+    def __init__(self, shape: ShapeLike, depth: int, *, registered: bool = False) -> None:
+        self._depth, self._registered = depth, registered
         super().__init__(
             {
                 "read": In(1),
@@ -67,10 +69,19 @@ class PackedMemory(wiring.Component):
                     write.addr.eq(self.write_at - base if base % deep else self.write_at[: len(write.addr)]),
                     write.data.eq(part),
                 ]
-                bits.append(read.data)
+                if self._registered:
+                    behind = Signal(len(part), name=f"behind_{base}_{low}", reset_less=True)
+                    m.d.sync += behind.eq(read.data)
+                    bits.append(behind)
+                else:
+                    bits.append(read.data)
             chosen = Signal(name=f"chosen_{base}", reset_less=True)
             with m.If(self.read):
                 m.d.sync += chosen.eq(is_read)
+            if self._registered:
+                late = Signal(name=f"chosen_late_{base}", reset_less=True)
+                m.d.sync += late.eq(chosen)
+                chosen = late
             parts.append((base, Cat(*bits)))
             found = parts[-1][1] if found is None else Mux(chosen, parts[-1][1], found)
             base += used

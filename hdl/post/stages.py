@@ -3,12 +3,13 @@
 from softdepth.hdl.costs.comparison import LIKE_BITS
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
+from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
 from softdepth.spec.config import Config
 from softdepth.spec.post import MEDIAN_REACH
 
 
-def post_stages(config: Config) -> dict[str, Island | Fill | Median]:
+def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedians]:
     """By name: each has streams ``i`` and ``o`` of `post_layout`, for results of either kind of winners.
 
     The left-right check, fractions and confidence are among the winners, which know the costs.
@@ -16,18 +17,22 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median]:
     post, channels = config.post, config.pixel.channels
     size = (config.result_bits, config.pixel.size)
     holes = not post.fill
-    stages: dict[str, Island | Fill | Median] = {}
+    stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
     if post.island:
         stages["island"] = Island(*size, config.max_width, post.island)
     if post.fill:
         stages["fill"] = Fill(*size, config.max_width)
     if post.median:
         reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
-        stages["median"] = Median(*size, channels, config.max_width, **reach, holes=holes)
-    if reach := post.masked_median:
-        like = post.like << (config.pixel.bits - LIKE_BITS)
-        for name, rows, columns in (("along_row", 0, reach), ("down_column", reach, 0)):
-            stages[name] = Median(
-                *size, channels, config.max_width, rows=rows, columns=columns, like=like, holes=holes
-            )
+        stages["median"] = Median(*size, config.max_width, **reach, holes=holes)
+    if post.masked_median:
+        stages["masked_medians"] = MaskedMedians(
+            *size,
+            channels,
+            config.max_width,
+            reach=post.masked_median,
+            like=post.like << (config.pixel.bits - LIKE_BITS),
+            holes=holes,
+            clocks=min(config.steps, 2),
+        )
     return stages

@@ -1,0 +1,198 @@
+"""Two medians of what is like the centre in colour: along the row, then down the column."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal, Value
+from amaranth.lib import data, stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.colour import alike
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.memory.row_stack import RowStack
+from softdepth.hdl.memory.window import MARKERS
+from softdepth.hdl.post.layout import is_measured, post_layout
+from softdepth.hdl.post.rank import LowerMedian
+from softdepth.hdl.post.slots import PostSlots
+from softdepth.hdl.post.stage import delayed
+
+
+class MaskedMedians(wiring.Component):
+    """Replaces each value by a lower median of its row, and that by one of its column; the rest stays.
+
+    Of ``2 reach + 1`` pixels those count that lie inside the frame and whose colour departs from the
+    centre's by less than ``like`` in every channel; there is always one, the centre. With ``holes``, results
+    that are no measurement are left out and stay as they are.
+
+    Two pixels are compared once, when the later one comes in, and the answer is kept for both. So half the
+    comparisons are built, the rows above keep their colours for half the reach alone, and a pixel that lies
+    outside is like none: neither its colour nor its value is then looked at, and no edge is repeated. Both
+    medians go by the same slots: ``reach`` rows and ``reach`` pixels more a frame, in which the input is held
+    back. A result every ``clocks`` clocks.
+
+    Parameters
+    ----------
+    value_bits, colour_bits, channels : of a result, and into how many equal parts its colour falls.
+    clocks : 1 or 2 that a pixel takes at least. With two, memory and its multiplexers are smaller.
+
+    Members
+    -------
+    i : results, `post_layout`.
+    o : results without their colours.
+    """
+
+    def __init__(
+        self,
+        value_bits: int,
+        colour_bits: int,
+        channels: int,
+        max_width: int,
+        *,
+        reach: int,
+        like: int,
+        holes: bool = False,
+        clocks: int = 1,
+    ) -> None:
+        self._value_bits, self._colour_bits, self._channels = value_bits, colour_bits, channels
+        self._max_width, self._reach, self._like = max_width, reach, like
+        self._holes, self._clocks = holes, clocks
+        self._layout = post_layout(value_bits, colour_bits)
+        super().__init__(
+            {
+                "i": In(stream.Signature(self._layout)),
+                "o": Out(stream.Signature(post_layout(value_bits, 0))),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        reach, clocks = self._reach, self._clocks
+        across = 2 * reach + 1
+        members = self._layout.members
+        m.submodules.slots = slots = PostSlots(reach, self._max_width, clocks)
+        payload = self.i.payload
+        m.d.comb += [
+            slots.valid.eq(self.i.valid),
+            self.i.ready.eq(slots.ready),
+            *(getattr(slots, name).eq(payload[name]) for name in MARKERS),
+        ]
+
+        # What is compared: a colour, and that its result counts where not all do.
+        compared = self._colour_bits + self._holes
+        colour: Value = payload.colour
+        if self._holes:
+            colour = Cat(colour, is_measured(payload.code))
+        kept_along = data.StructLayout({name: members[name] for name in ("code", "confidence")})
+
+        # Clock 1: the pixel, compared with those before it in its row.
+        slot = travelling(m, slots.slot, 5 + clocks, "slot")
+        pixel = delayed(m, Cat(payload.value, payload.code, payload.confidence), 1, "pixel")
+        value, along = pixel[: self._value_bits], pixel[self._value_bits :]
+        colours = [delayed(m, colour, 1, "colour")]
+        for clock in range(1, 4 + clocks):
+            colours.append(delayed(m, colours[-1], 1, f"late_{clock}"))
+        before = delayed(m, slots.before, 1, "before")
+        past = [Signal(compared, name=f"past_{k}", reset_less=True) for k in range(reach)]
+        values = [Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(across)]
+        likes = [Signal(reach, name=f"like_{k}", reset_less=True) for k in range(reach + 1)]
+        passing = [Signal(kept_along, name=f"passing_{k}", reset_less=True) for k in range(reach + 1)]
+        found = Cat(self._alike(colours[0], past[k]) & before[k] for k in range(reach))
+        with m.If(slot[1]):
+            m.d.sync += [
+                Cat(*past).eq(Cat(colours[0], *past)),
+                Cat(*values).eq(Cat(value, *values)),
+                Cat(*likes).eq(Cat(found, *likes)),
+                Cat(Value.cast(p) for p in passing).eq(Cat(along, *(Value.cast(p) for p in passing))),
+            ]
+        m.submodules.along_row = row = LowerMedian(across, self._value_bits)
+        m.d.comb += [Cat(Value.cast(row.i)).eq(Cat(*values)), row.keep.eq(self._kept(likes))]
+
+        # The same pixel, compared with those above it.
+        m.submodules.colours = above = RowStack([(compared, reach)], self._max_width, clocks)
+        m.d.comb += [
+            above.valid.eq(slot[1]),
+            above.place.eq(delayed(m, slots.x, 1, "x")),
+            above.items["0"].eq(colours[above.ahead]),
+        ]
+        compares = 1 + above.latency
+        over = delayed(m, slots.above, compares, "above")
+        down = Cat(self._alike(colours[above.latency], above.o["0"][k]) & over[k] for k in range(reach))
+        downs = [Signal(reach, name=f"down_{k}", reset_less=True) for k in range(reach + 1)]
+        with m.If(slot[compares]):
+            m.d.sync += Cat(*downs).eq(Cat(down, *downs))
+
+        # The row's median goes on top of its column, with what the pixel was compared to.
+        centre = Cat(values[reach], Value.cast(passing[reach]))
+        ready = 2 + row.latency
+        put = max(ready, compares + 1, 1 + RowStack.ahead)
+        centre = delayed(m, centre, put - 2, "centre")
+        middle = delayed(m, row.o, put - ready, "middle")
+        if self._holes:
+            passed = data.View(kept_along, centre[self._value_bits :])
+            middle = Mux(is_measured(passed.code), middle, centre[: self._value_bits])
+        tag = Cat(delayed(m, downs[reach], put - compares - 1, "tag"), centre[self._value_bits :])
+        m.submodules.rows = rows = RowStack(
+            [(self._value_bits, 2 * reach), (len(tag), reach)], self._max_width, clocks
+        )
+        looks_up = put - RowStack.ahead
+        entering = travelling(m, slots.enters, looks_up, "enters")[-1]
+        line_ends = delayed(m, slots.o_eol, looks_up, "line_ends")
+        at = Signal(range(self._max_width))
+        with m.If(entering):
+            m.d.sync += at.eq(Mux(line_ends, 0, at + 1))
+        m.d.comb += [
+            rows.valid.eq(entering),
+            rows.place.eq(at),
+            rows.items["0"].eq(middle),
+            rows.items["1"].eq(tag),
+        ]
+        wait = rows.latency - RowStack.ahead
+        column = [delayed(m, middle, wait, "newest"), *rows.o["0"]]
+        tags = [delayed(m, tag, wait, "newest_tag"), *rows.o["1"]]
+        m.submodules.down_column = last = LowerMedian(across, self._value_bits)
+        # A register on the way there: the tags are all in one word.
+        column = [delayed(m, c, 1, f"column_{k}") for k, c in enumerate(column)]
+        tags = [delayed(m, t, 1, f"tag_{k}") for k, t in enumerate(tags)]
+        m.d.comb += [
+            Cat(Value.cast(last.i)).eq(Cat(*column)),
+            last.keep.eq(self._kept([t[:reach] for t in tags])),
+        ]
+
+        latency = put + wait + 1 + last.latency
+        layout = post_layout(self._value_bits, 0)
+        m.submodules.queue = queue = ResultQueue(layout, -(-latency // clocks) + 1)
+        rest = data.View(kept_along, delayed(m, tags[reach][reach:], last.latency, "rest"))
+        result: Value = last.o
+        if self._holes:
+            result = Mux(is_measured(rest.code), result, delayed(m, column[reach], last.latency, "whole"))
+        fresh = Signal(init=1)
+        puts = travelling(m, slots.emits, latency, "emits")[-1]
+        eof = delayed(m, slots.o_eof, latency, "eof")
+        with m.If(puts):
+            m.d.sync += fresh.eq(eof)
+        m.d.comb += [
+            slots.credit.eq(queue.credit),
+            queue.promised.eq(slots.emits),
+            queue.put.eq(puts),
+            queue.result.value.eq(result),
+            queue.result.code.eq(rest.code),
+            queue.result.confidence.eq(rest.confidence),
+            queue.result.sof.eq(fresh),
+            queue.result.eol.eq(delayed(m, slots.o_eol, latency, "eol")),
+            queue.result.eof.eq(eof),
+            queue.result.damaged.eq(delayed(m, slots.o_damaged, latency, "damaged")),
+        ]
+        wiring.connect(m, queue.o, wiring.flipped(self.o))
+        return m
+
+    def _alike(self, a: Value, b: Value) -> Value:
+        bits = self._colour_bits
+        like = alike(a[:bits], b[:bits], self._channels, self._like)
+        return like & a[bits] & b[bits] if self._holes else like
+
+    def _kept(self, likes: list[Value]) -> Value:
+        """Which of the samples, newest first, are like the one in the middle.
+
+        The answers of a later pixel are to those before it.
+        """
+        reach = self._reach
+        newer = [likes[k][reach - 1 - k] for k in range(reach)]
+        return Cat(*newer, 1, likes[reach])

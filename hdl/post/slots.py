@@ -1,0 +1,124 @@
+"""When pixels enter a pair of windows that lag behind, and when their results leave."""
+
+from amaranth.hdl import Cat, Module, Mux, Signal
+from amaranth.lib import wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.memory.window import MARKERS
+
+
+class PostSlots(wiring.Component):
+    """Goes through a frame pixel by pixel, and on for ``reach`` rows and ``reach`` pixels below it.
+
+    A slot is a clock in which a pixel enters, of the frame or below it. The pixel ``reach`` slots before it
+    is then in the middle of its row, and the one ``reach`` rows above that in the middle of its column.
+
+    Parameters
+    ----------
+    max_width : pixels of the longest line.
+    clocks : from a slot to the next, at least.
+
+    Members
+    -------
+    valid, ready, sof, eol, eof, damaged : the pixels of sound frames.
+    credit : a slot may be.
+    slot, x : there is one, and the pixel's column.
+    before, above : of the ``reach`` pixels before it, and above it, nearest first, which lie in its line, and
+        in the frame. None does above a pixel below the frame.
+    enters, o_eol : the middle of the row is a pixel of the frame or below, and its line's last.
+    emits, o_eof, o_damaged : that of the column is one of the frame, the frame's last, and the frame was
+        mended so far.
+    """
+
+    def __init__(self, reach: int, max_width: int, clocks: int) -> None:
+        self._reach, self._max_width, self._clocks = reach, max_width, clocks
+        super().__init__(
+            {
+                "valid": In(1),
+                "ready": Out(1),
+                **{name: In(1) for name in MARKERS},
+                "credit": In(1),
+                "slot": Out(1),
+                "x": Out(range(max_width)),
+                "before": Out(reach),
+                "above": Out(reach),
+                "enters": Out(1),
+                "emits": Out(1),
+                "o_eol": Out(1),
+                "o_eof": Out(1),
+                "o_damaged": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        reach = self._reach
+        below = Signal(range(reach + 1))  # rows below the frame that are still to come, this one included
+        after = Signal(range(reach + 1))  # and pixels below these
+        x = Signal(range(self._max_width))
+        last_x = Signal.like(x)
+        beside = Signal(reach)  # a bit for each pixel of the line so far
+        rows = Signal(reach)  # and for each row
+        damaged = Signal()
+        pauses = Signal()
+        may = Signal()
+        flushing, trailing = Signal(), Signal()
+        m.d.comb += [
+            may.eq(self.credit & ~pauses),
+            flushing.eq(below != 0),
+            trailing.eq(after != 0),
+            self.ready.eq(may & ~flushing & ~trailing),
+            self.slot.eq(may & (flushing | trailing | self.valid)),
+        ]
+        if self._clocks > 1:
+            m.d.sync += pauses.eq(self.slot)
+
+        outside = Signal()
+        starts, last = Signal(), Signal()
+        now = Signal(reach)
+        m.d.comb += [
+            outside.eq(flushing | trailing),
+            starts.eq(~outside & self.sof),
+            last.eq(Mux(outside, x == last_x, self.eol)),
+            now.eq(Mux(starts, 0, rows)),
+            self.x.eq(x),
+            self.before.eq(beside),
+            self.above.eq(Mux(outside, 0, now)),
+        ]
+        with m.If(self.slot):
+            m.d.sync += [x.eq(Mux(last, 0, x + 1)), beside.eq(Mux(last, 0, Cat(1, beside)))]
+            with m.If(last):
+                m.d.sync += [rows.eq(Cat(1, now)), last_x.eq(x)]
+            with m.Else():
+                m.d.sync += rows.eq(now)
+            with m.If(~outside):
+                m.d.sync += damaged.eq(self.damaged | (damaged & ~starts))
+                with m.If(self.eof):
+                    m.d.sync += below.eq(reach)
+            with m.If(flushing & last):
+                m.d.sync += below.eq(below - 1)
+                with m.If(below == 1):
+                    m.d.sync += after.eq(reach)
+            with m.If(trailing):
+                m.d.sync += after.eq(after - 1)
+                with m.If(after == 1):
+                    m.d.sync += [x.eq(0), beside.eq(0)]
+
+        # What is known of each pixel until it is in the middle of its row.
+        enters, emits = Signal(reach), Signal(reach)
+        eol, eof = Signal(reach, reset_less=True), Signal(reach, reset_less=True)
+        with m.If(self.slot):
+            m.d.sync += [
+                enters.eq(Cat(~trailing, enters)),
+                emits.eq(Cat(~trailing & now[-1], emits)),
+                eol.eq(Cat(last, eol)),
+                eof.eq(Cat(flushing & (below == 1) & last, eof)),
+            ]
+        m.d.comb += [
+            self.enters.eq(self.slot & enters[-1]),
+            self.emits.eq(self.slot & emits[-1]),
+            self.o_eol.eq(eol[-1]),
+            self.o_eof.eq(eof[-1]),
+            self.o_damaged.eq(damaged | (self.slot & ~outside & self.damaged)),
+        ]
+        return m

@@ -68,7 +68,7 @@ class RowStack(wiring.Component):
             m.d.sync += place[0].eq(self.place)
         m.d.sync += [place[k + 1].eq(place[k]) for k in range(self.ahead - 1)]
 
-        # Clock 1: the word is looked up, or its first half. Clock 3: in the blocks' registers. Clock 4: in ours.
+        # Clock 1: the word, or its first half, is looked up. Clock 3: the blocks' registers. Clock 4: ours.
         found = Signal(word, reset_less=True)
         m.d.sync += found.eq(memory.data)
         items = [Cat(value, Const(0, part * clocks - len(value))) for value, part in self._values(parts)]

@@ -41,7 +41,7 @@ class Neighbours(wiring.Component):
         self._bits = cost_bits(maximum)
         self._tree = (lanes - 1).bit_length()
         self._joins = 0
-        count = lanes
+        count = -(-lanes // 2)
         while count > 1:
             count = -(-count // JOINED)
             self._joins += 1
@@ -84,11 +84,15 @@ class Neighbours(wiring.Component):
 
         # A step's cost below the winner, or above it: at most one lane has it.
         for name in ("below", "above"):
+            # Two lanes share a table: an offer and whether it is chosen, of each.
             level: list[Value] = []
-            for k in range(lanes):
+            for k in range(0, lanes, 2):
                 part = Signal(bits + 1, name=f"{name}_{k}", reset_less=True)
-                offered = Cat(self.costs[k], ~self.excluded[k])
-                m.d.sync += part.eq(offered & chosen[name][k].replicate(bits + 1))
+                offers = [
+                    Cat(self.costs[lane], ~self.excluded[lane]) & chosen[name][lane].replicate(bits + 1)
+                    for lane in range(k, min(k + 2, lanes))
+                ]
+                m.d.sync += part.eq(offers[0] | offers[-1])
                 level.append(part)
             for depth in range(self._joins):
                 following: list[Value] = []

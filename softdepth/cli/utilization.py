@@ -17,7 +17,7 @@ def utilization(
         list[str] | None,
         typer.Option(
             "--row",
-            metavar="PRESET/OPERATOR/LANES[@SEED]",
+            metavar="PRESET/OPERATOR/LANES[/DEVICE][@SEED]",
             help="Measure this row, from a seed of its own if one is given; repeatable [default: all].",
         ),
     ] = None,
@@ -48,7 +48,7 @@ def utilization(
     found = []
     for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
         screen.note(f"row {number} of {len(rows)}: {each}")
-        found.append(utilization.measure(config, each.preset, seed=its_seed, known=known))
+        found.append(utilization.measure(config, each.preset, part=each.part, seed=its_seed, known=known))
     utilization_page.write(output, utilization_page.merged(known, found) if row or quick else found)
     print(f"results: {output / 'utilization.md'}, {output / 'utilization.json'}")
 
@@ -58,19 +58,27 @@ def _selection(text: str, seed: int) -> tuple["Selection", int]:
     from pydantic import ValidationError
 
     from softdepth.spec.config import OPERATORS
-    from softdepth.studies.utilization import Selection
+    from softdepth.spec.presets import PRESETS
+    from softdepth.studies.utilization import SUM, Selection, operator_of
+    from softdepth.studies.utilization_page import BLOCK_RAMS
 
-    names = ("preset", "operator", "lanes")
+    names = ("preset", "operator", "lanes", "device")
     what, at, own = text.partition("@")
     try:
-        selection = Selection.model_validate(dict(zip(names, what.split("/"), strict=True)))
-        if selection.operator not in OPERATORS:
+        parts = what.split("/")
+        if not len(names) - 1 <= len(parts) <= len(names):
+            raise ValueError(f"'{what}' has {len(parts)} parts")
+        selection = Selection.model_validate(dict(zip(names, parts, strict=False)))
+        if selection.device not in BLOCK_RAMS:
+            raise ValueError(f"'{selection.device}' is none of {', '.join(BLOCK_RAMS)}")
+        has_none = operator_of(selection.preset, "") == SUM if selection.preset in PRESETS else False
+        if selection.operator not in (*OPERATORS, *((SUM,) if has_none else ())):
             raise ValueError(f"'{selection.operator}' is no operator")
         if at and not own.isdecimal():
             raise ValueError(f"'{own}' is no seed")
     except (ValueError, ValidationError) as error:
         raise InputError(
-            f"--row '{text}' is not PRESET/OPERATOR/LANES or PRESET/OPERATOR/LANES@SEED",
-            "write for example --row paper/mean/16",
+            f"--row '{text}' is not PRESET/OPERATOR/LANES[/DEVICE][@SEED]",
+            "write for example --row paper/mean/16 or --row robust-small/sum/16/LFE5U-45F",
         ) from error
     return selection, int(own) if at else seed

@@ -5,9 +5,11 @@ import hashlib
 import json
 import tempfile
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
+from typing import Self
 
-from pydantic import BaseModel
+from pydantic import BaseModel, model_validator
 
 from softdepth.files import cache_folder, write_atomically
 from softdepth.flow.blocks import Block, blocks
@@ -19,12 +21,15 @@ from softdepth.flow.synthesis import synthesise
 from softdepth.flow.tools import find_tool
 from softdepth.spec.config import Config, Operator
 from softdepth.spec.errors import InputError
+from softdepth.spec.presets import PRESETS
 
 PART = Part("ecp5", "LFE5U-85F", "CABGA381", "6")
 AIM_MHZ = 150.0
 """The clock that nextpnr is told to aim at: more than most cores reach, so that it never stops early."""
 
 DISPARITIES, WIDTH = 64, 1280
+SUM = "sum"
+"""What stands for the operator of a core whose cost is a sum of its criteria."""
 
 
 class Row(BaseModel):
@@ -32,7 +37,7 @@ class Row(BaseModel):
 
     Members
     -------
-    operator : of the fuzzy stage; it changes nothing in preset `sad`, which has none.
+    operator : of the fuzzy stage; `SUM` where the cost is a sum of criteria and there is none.
     width : the longest line, in pixels.
     lut4 : nextpnr's ``Total LUT4s``: a carry cell counts as two, distributed RAM as the LUTs it takes.
     ff, ebr, dsp : flip-flops, block RAMs of 18 kbit, multipliers of 18x18 bits.
@@ -59,6 +64,13 @@ class Row(BaseModel):
     mde_s_per_klut: float
     lut4_per_lane: float
 
+    @model_validator(mode="after")
+    def _say_sum(self) -> Self:
+        """Rows written when the operator's default stood for none."""
+        if self.preset in PRESETS:
+            self.operator = operator_of(self.preset, self.operator)
+        return self
+
 
 class Measurement(BaseModel):
     """A row, and what is known of the run that gave it.
@@ -84,21 +96,44 @@ class Measurement(BaseModel):
 
 
 class Selection(BaseModel, frozen=True):
-    """What a row is asked for by, written ``PRESET/OPERATOR/LANES``."""
+    """What a row is asked for by, written ``PRESET/OPERATOR/LANES``, or with ``/DEVICE`` behind it.
+
+    Members
+    -------
+    operator : of the fuzzy stage; anything, best `SUM`, for a preset without one.
+    device : an ECP5, placed in the package and speed grade of `PART`.
+    """
 
     preset: str
     operator: Operator
     lanes: int
+    device: str = PART.device
 
     def __str__(self) -> str:
-        return f"{self.preset}/{self.operator}/{self.lanes}"
+        return row_name(self.preset, operator_of(self.preset, self.operator), self.lanes, self.device)
+
+    @property
+    def part(self) -> Part:
+        """What is measured on."""
+        return replace(PART, device=self.device)
 
     def config(self, disparities: int = DISPARITIES, width: int = WIDTH) -> Config:
         """The configuration that is measured."""
-        values = (f"operator={self.operator}", f"lanes={self.lanes}")
-        return Config.preset(self.preset).override(
-            [*values, f"disparities={disparities}", f"max_width={width}"]
-        )
+        values = [f"lanes={self.lanes}", f"disparities={disparities}", f"max_width={width}"]
+        if operator_of(self.preset, self.operator) != SUM:
+            values.append(f"operator={self.operator}")
+        return Config.preset(self.preset).override(values)
+
+
+def row_name(preset: str, operator: str, lanes: int, device: str) -> str:
+    """What a row is called: with its device unless that is the usual one."""
+    usual = device.startswith(PART.device)
+    return "/".join((preset, operator, str(lanes), *(() if usual else (device,))))
+
+
+def operator_of(preset: str, operator: str) -> str:
+    """The operator of a preset's fuzzy stage; `SUM` where it has none."""
+    return SUM if Config.preset(preset).cost == "sum" else operator
 
 
 def measure(
@@ -118,7 +153,8 @@ def measure(
     Raises `ConfigError` for a core that does not fit, and `ToolError` for a missing or failed tool.
     """
     top = MeasuringTop(config)
-    stages = Stages(f"{preset}/{config.operator}/{config.lanes}, {config.disparities} disparities")
+    name = row_name(preset, operator_of(preset, config.operator), config.lanes, part.device)
+    stages = Stages(f"{name}, {config.disparities} disparities")
     with tempfile.TemporaryDirectory(prefix="softdepth-") as temporary:
         work = Path(temporary)
         with stages.stage("synthesis"):
@@ -159,7 +195,7 @@ def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
     return Row(
         device=f"{part.device}-{part.speed}",
         preset=preset,
-        operator=config.operator,
+        operator=operator_of(preset, config.operator),
         disparities=config.disparities,
         lanes=config.lanes,
         width=config.max_width,

@@ -7,7 +7,14 @@ from pathlib import Path
 from softdepth.files import write_atomically
 from softdepth.flow.families import FAMILIES
 from softdepth.flow.tools import find_tool
-from softdepth.studies.utilization import AIM_MHZ, PART, Measurement, Row, Selection
+from softdepth.studies.utilization import (
+    AIM_MHZ,
+    PART,
+    Measurement,
+    Row,
+    Selection,
+    row_name,
+)
 from softdepth.templates import render
 
 JSON = "utilization.json"
@@ -20,6 +27,9 @@ VIDEO_MODES = {
     "1080p60": 124.4,
 }
 """Million visible pixels a second of usual video modes, which is what a core must sustain."""
+
+BLOCK_RAMS = {"LFE5U-12F": 56, "LFE5U-25F": 56, "LFE5U-45F": 108, "LFE5U-85F": 208}
+"""Block RAMs of each part; the smallest has the die of the next."""
 
 RECOMMENDED = tuple(
     Selection.model_validate({"preset": preset, "operator": operator, "lanes": lanes})
@@ -48,9 +58,40 @@ def load(folder: Path) -> list[Measurement]:
 
 
 def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Measurement]:
-    """The known measurements, new ones of the same configuration in their place, and the others behind."""
-    found = {_identity(each.row): each for each in known}
-    return list((found | {_identity(each.row): each for each in new}).values())
+    """The known measurements, new ones of the same row and seed in their place, and the others behind.
+
+    Of a row that is measured again, other seeds stay only where the netlist is the same, as far as its
+    blocks tell.
+    """
+    found = {(*_identity(each.row), each.seed): each for each in known}
+    for each in new:
+        stale = [k for k, old in found.items() if k[:-1] == _identity(each.row) and not _alike(old, each)]
+        for key in stale:
+            if key[-1] != each.seed:
+                del found[key]
+        found[(*_identity(each.row), each.seed)] = each
+    return list(found.values())
+
+
+def medians(measurements: Sequence[Measurement]) -> list[tuple[Measurement, list[Measurement]]]:
+    """Of each row the measurement with the median clock, the lower one of two, and those of all its seeds."""
+    rows: dict[tuple[str, int, int], list[Measurement]] = {}
+    for each in measurements:
+        rows.setdefault(_identity(each.row), []).append(each)
+    return [(_median(seeds), sorted(seeds, key=lambda each: each.seed)) for seeds in rows.values()]
+
+
+def median_rows(rows: Sequence[Row]) -> list[Row]:
+    """Of rows that differ in nothing but the seed, the one with the median clock, the lower one of two."""
+    alike: dict[tuple[str, int, int], list[Row]] = {}
+    for row in rows:
+        alike.setdefault(_identity(row), []).append(row)
+    return [sorted(each, key=lambda row: row.fmax_mhz)[(len(each) - 1) // 2] for each in alike.values()]
+
+
+def block_rams_left(row: Row) -> int:
+    """How many of the part's block RAMs a row leaves."""
+    return BLOCK_RAMS[row.device.rpartition("-")[0]] - row.ebr
 
 
 def write(folder: Path, measurements: Sequence[Measurement]) -> None:
@@ -75,7 +116,8 @@ def modes(row: Row) -> list[str]:
 
 def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
     """The figures as a Markdown page."""
-    detailed = next((m for m in measurements if _name(m.row) == DETAILED), measurements[0])
+    shown = medians(measurements)
+    detailed = next((m for m, _ in shown if _name(m.row) == DETAILED), shown[0][0])
     text = render(
         "softdepth.studies",
         "utilization.md",
@@ -83,7 +125,8 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         aim_mhz=AIM_MHZ,
         tools=tools,
         wrappers=sorted({(m.wrapper_lut4, m.wrapper_ff) for m in measurements}),
-        measurements=measurements,
+        shown=shown,
+        left=block_rams_left,
         video_modes=VIDEO_MODES,
         modes=modes,
         name=_name,
@@ -97,4 +140,13 @@ def _identity(row: Row) -> tuple[str, int, int]:
 
 
 def _name(row: Row) -> str:
-    return f"{row.preset}/{row.operator}/{row.lanes}"
+    return row_name(row.preset, row.operator, row.lanes, row.device.rpartition("-")[0])
+
+
+def _median(seeds: Sequence[Measurement]) -> Measurement:
+    return sorted(seeds, key=lambda each: each.row.fmax_mhz)[(len(seeds) - 1) // 2]
+
+
+def _alike(a: Measurement, b: Measurement) -> bool:
+    """Whether two measurements are of equal netlists, as far as their blocks tell."""
+    return a.blocks == b.blocks

@@ -15,7 +15,7 @@ from softdepth.hdl.boards.serial.transmitter import UartTransmitter
 from softdepth.hdl.boards.session import Session
 from softdepth.hdl.core import StereoCore
 from softdepth.spec.config import Config
-from softdepth.spec.protocol import COUNTERS, REPLY, ROW, Type
+from softdepth.spec.protocol import COUNTERS, REPLY, ROW, Type, check_lines
 
 
 class SerialCore(wiring.Component):
@@ -38,9 +38,12 @@ class SerialCore(wiring.Component):
     receiving, troubled : a packet came; something was wrong with it. In this clock only.
     active : a frame is under way.
     fault : the core broke its own rules.
+
+    Raises `ConfigError` where the longest line does not fit into a packet.
     """
 
     def __init__(self, config: Config, divisor: int, hello: bytes) -> None:
+        check_lines(config)
         self._config = config
         self._divisor = divisor
         self._hello = hello

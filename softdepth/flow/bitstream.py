@@ -22,6 +22,7 @@ from softdepth.sources import PROJECT, sources_hash
 from softdepth.spec.boards import Board
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
+from softdepth.spec.protocol import check_lines
 
 MANIFEST = "manifest.json"
 FILES = ("config.toml", "netlist.json", "nextpnr.log", "timing.json")
@@ -69,6 +70,7 @@ def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manif
     """
     from softdepth.hdl.boards.top import BoardTop
 
+    check_lines(config)
     part = part_of(board)
     family = FAMILIES[board.family]
     tools = {name: find_tool(name) for name in ("yosys", family.placer, family.packer)}

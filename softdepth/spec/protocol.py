@@ -18,6 +18,7 @@ from enum import IntEnum
 from typing import Any, NamedTuple
 
 from softdepth.spec.config import Config, PixelFormat
+from softdepth.spec.errors import ConfigError
 
 VERSION = 1
 FLAG = 0x7E
@@ -26,6 +27,8 @@ TOGGLE = 0x20
 
 HEADER = struct.Struct("<BBHH")
 CRC_BYTES = 4
+LONGEST = (1 << 16) - 1
+"""Bytes of the longest payload: its length is a u16."""
 SEQUENCES = 1 << 16
 WINDOW = 2
 """Requests that may be under way: the board keeps as many replies, to send them again."""
@@ -138,6 +141,17 @@ def decode(framed: bytes) -> Packet | None:
 def pair_bytes(pixel: PixelFormat) -> int:
     """Bytes of a pixel pair in a line: left red, green, blue, or gray, then right; each little endian."""
     return 2 * pixel.bytes
+
+
+def check_lines(config: Config) -> None:
+    """Raise `ConfigError` where a line of the largest image does not fit into a packet."""
+    most = LONGEST // pair_bytes(config.pixel)
+    if config.max_width > most:
+        raise ConfigError(
+            f"max_width = {config.max_width}: a line of {config.pixel.value} pairs has more than the {LONGEST} bytes"
+            " of a board's packet",
+            f"use a max_width of at most {most}, or fewer bits a pixel",
+        )
 
 
 def result_bytes(config: Config) -> int:

@@ -6,8 +6,23 @@ import zlib
 import numpy as np
 import pytest
 
+from softdepth.hdl.boards.link import SerialCore
 from softdepth.spec.config import Config
-from softdepth.spec.protocol import ESCAPE, FLAG, Packet, Type, decode, describe, encode, result_bytes
+from softdepth.spec.errors import ConfigError
+from softdepth.spec.protocol import (
+    ESCAPE,
+    FLAG,
+    LONGEST,
+    ROW,
+    Packet,
+    Type,
+    check_lines,
+    decode,
+    describe,
+    encode,
+    pair_bytes,
+    result_bytes,
+)
 
 
 def inside(framed: bytes) -> bytes:
@@ -62,3 +77,21 @@ def test_a_board_describes_its_configuration():
     said = json.loads(describe(config, "ulx3s-12f", "0.1.0"))
     assert (said["board"], said["revision"], said["hash"]) == ("ulx3s-12f", "0.1.0", config.hash)
     assert Config.from_dict(said["config"]) == config
+
+
+@pytest.mark.parametrize("pixel", ["rgb12", "rgb10"])
+def test_a_line_that_no_packet_holds_is_refused(pixel):
+    """The longest line that is taken can be sent, and one pair more cannot."""
+    config = Config.preset("sad").override([f"pixel={pixel}", "max_width=5461"])
+    check_lines(config)
+    payload = bytes(5461 * pair_bytes(config.pixel))
+    assert decode(inside(encode(Packet(Type.LINE, 0, payload)))) is not None
+    assert len(payload) + pair_bytes(config.pixel) > LONGEST
+    with pytest.raises(ConfigError, match=r"max_width = 5462: .*; use a max_width of at most 5461"):
+        SerialCore(config.override(["max_width=5462"]), 16, b"")
+
+
+def test_every_other_line_fits_however_long():
+    config = Config.preset("robust").override(["pixel=gray12", "max_width=8192"])
+    check_lines(config)
+    assert 8192 * result_bytes(config) + ROW.size <= LONGEST

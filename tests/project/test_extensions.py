@@ -1,8 +1,10 @@
-"""An operator and a criterion of one's own: two modules each, and nothing else is touched."""
+"""The operator and the criterion of the tutorial, as it prints them: in models, gateware and export."""
 
+import re
 import sys
 from collections.abc import Iterator
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -39,19 +41,33 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     CELL_OPERATORS,
     lane.CRITERIA,
 )
-TOYS = ("any_golden", "any_hdl", "spot_golden", "spot_hdl")
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 @pytest.fixture(autouse=True)
-def toys(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The toys are known within a test, and unknown to all others of this process."""
+def toys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The tutorial's code is known within a test, and unknown to all others of this process."""
     for registry in REGISTRIES:
         monkeypatch.setattr(registry, "_items", dict(registry._items))
-    names = [f"tests.support.toys.{name}" for name in TOYS]
+    names = write_files(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv(VARIABLE, ",".join(names))
     yield
     for name in names:
         sys.modules.pop(name, None)
+
+
+def write_files(folder: Path) -> list[str]:
+    """Write the tutorial's files into `folder`, as they stand on its page; gives the names of its modules."""
+    blocks = re.findall(
+        r'^```python title="(\w+)\.py"\n(.*?)^```', PAGE.read_text(), re.DOTALL | re.MULTILINE
+    )
+    for name, code in blocks:
+        (folder / f"{name}.py").write_text(code)
+    core = re.search(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE)
+    assert core
+    (folder / "toy.toml").write_text(core[1])
+    return [name for name, _ in blocks]
 
 
 def core(**keys: object) -> Config:
@@ -125,7 +141,12 @@ def test_a_kind_without_a_band_has_a_model_only(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_export_info_and_documents(softdepth, tmp_path) -> None:
-    core(operator="any").save(tmp_path / "toy.toml")
+    """The core that the page prints is the one that is exported here."""
+    printed = Config.load(tmp_path / "toy.toml")
+    assert [c.kind for c in printed.criteria] == ["sad", "spot", "sad"]
+    named = re.search(rf"{VARIABLE}=(\S+)", PAGE.read_text())
+    assert named
+    assert named[1].split(",") == write_files(tmp_path)
     outcome = softdepth("export", "--config", tmp_path / "toy.toml", "-o", tmp_path / "toy.v")
     assert outcome.code == 0, outcome.err
     assert "_lane_0_spot(" in (tmp_path / "toy.v").read_text()

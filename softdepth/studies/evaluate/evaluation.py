@@ -24,6 +24,18 @@ EXIT_MISMATCH = 1
 RIVALS_SHOWN = ("hh",)
 """OpenCV's matchers whose maps the page shows."""
 PRESETS_SHOWN = 2
+HEAD = (
+    "method",
+    "bad-1\nnonocc",
+    "bad-2\nnonocc",
+    "bad-1\nall",
+    "bad-2\nall",
+    "\nerror",
+    "of\nHH's",
+    "of\nSGBM's",
+    "\nmeasured",
+)
+"""The titles on the screen, of `tables.overview`'s columns: short enough for 80 characters a line."""
 
 
 @dataclass
@@ -91,12 +103,12 @@ def write(folder: Path, outcome: Outcome, document: Path | None = None) -> None:
 
 def show(outcome: Outcome) -> None:
     """Print the table of all methods, and what gateware and model differ in."""
-    head, *rows = tables.overview(outcome.evaluation).rows
-    table = Table(*head, box=None)
+    _, *rows = tables.overview(outcome.evaluation).rows
+    table = Table(*HEAD, box=None, pad_edge=False)
     for column in table.columns[1:]:
         column.justify = "right"
     for row in rows:
-        table.add_row(*(text.strip("`") for text in row))
+        table.add_row(*(text.strip("`").removeprefix("OpenCV ") for text in row))
     screen.console().print(table)
     for scene in outcome.evaluation.scenes:
         for name, count in scene.mismatches.items():

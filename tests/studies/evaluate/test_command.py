@@ -8,7 +8,7 @@ import pytest
 from softdepth.cli.app import main
 from softdepth.golden import fixed_model
 from softdepth.spec.config import Config
-from softdepth.studies.evaluate import opencv, work
+from softdepth.studies.evaluate import evaluation, opencv, work
 from softdepth.studies.evaluate.document import Evaluation
 from softdepth.studies.evaluate.scenes import find
 from softdepth.studies.evaluate.score import score
@@ -69,6 +69,16 @@ def test_every_file_is_written_and_says_the_same(results):
     page = (out / "accuracy.html").read_text()
     assert "http" not in page
     assert page.count("data:image/jpeg") == 2 * 2 + 2 * 2 * 3  # two scenes: left, truth, three maps twice
+
+
+def test_the_table_fits_a_terminal_of_80_columns(results, monkeypatch, capsys):
+    found = Evaluation.model_validate_json((results / "out" / "evaluate.json").read_text())
+    monkeypatch.setenv("COLUMNS", "80")
+    evaluation.show(evaluation.Outcome(found, {}))
+    shown = capsys.readouterr().out.splitlines()
+    assert len(shown) == 2 + len(found.methods) - len(found.fuzzy)  # no row is wrapped
+    assert max(map(len, shown)) <= 80
+    assert any(f" {found.score('sad').error:.2f} " in line for line in shown)
 
 
 def test_results_without_a_value_are_filled_for_the_score(folder):

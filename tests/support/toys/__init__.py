@@ -1,1 +1,0 @@
-"""An operator and a criterion of one's own, two modules each."""

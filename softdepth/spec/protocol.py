@@ -148,8 +148,8 @@ def check_lines(config: Config) -> None:
     most = LONGEST // pair_bytes(config.pixel)
     if config.max_width > most:
         raise ConfigError(
-            f"max_width = {config.max_width}: a line of {config.pixel.value} pairs has more than the {LONGEST} bytes"
-            " of a board's packet",
+            f"max_width = {config.max_width}: a line of {config.pixel.value} pairs is longer than"
+            f" the {LONGEST} bytes of a packet",
             f"use a max_width of at most {most}, or fewer bits a pixel",
         )
 

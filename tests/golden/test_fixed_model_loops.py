@@ -51,6 +51,12 @@ def loop_cost(left, right, x, y, d, c):
             seen = s[rule.criterion - 1]
         if seen > rule.threshold:
             s = tops if rule.reading == "top" else [1000] * 3
+    return loop_inference(s, c)
+
+
+def loop_inference(s, c):
+    """N / S of three criteria's values."""
+    tops = [2 * 2**i.label_bits for i in c.criteria]
     one = 2**c.membership_bits
     degree, cell = {}, set()
     for i, (value, top, criterion) in enumerate(zip(s, tops, c.criteria, strict=True), start=1):

@@ -1,11 +1,15 @@
 """Census, gradient, winners and post-processing against plain loops over their definitions."""
 
+import math
+
 import numpy as np
 import pytest
 
-from softdepth.golden import fixed_model
+from softdepth.golden import fixed_model, float_model
 from softdepth.golden.data.pair import StereoPair
 from softdepth.spec.config import Config
+from tests.golden.test_fixed_model_loops import loop_inference
+from tests.golden.test_float_model import eq_10
 
 FULL, PARTIAL, FILLED, INCONSISTENT, ISLAND, NOTHING = 0, 1, 3, 4, 5, 6
 
@@ -78,11 +82,16 @@ class Loops:
     def cost(self, y, x, d):
         return sum(getattr(self, c.kind)(c, y, x, d) for c in self.c.criteria)
 
+    def number(self, cost):
+        """A cost as fractions of a pixel and confidence take it."""
+        return cost
+
     def result(self):
         post, count = self.c.post, self.c.disparities
         rows, columns = range(self.h), range(self.w)
         cost = {(y, x, d): self.cost(y, x, d) for y in rows for x in columns for d in range(count) if d <= x}
         pixels = [(y, x) for y in rows for x in columns]
+        number = {place: self.number(one) for place, one in cost.items()}
         left = {(y, x): min((cost[y, x, d], d) for d in range(min(count, x + 1)))[1] for y, x in pixels}
         right = {
             (y, x): min((cost[y, x + d, d], d) for d in range(count) if x + d < self.w)[1] for y, x in pixels
@@ -93,11 +102,11 @@ class Loops:
             d = left[y, x]
             value[y, x] = 16 * d
             if 0 < d < count - 1 and d + 1 <= x:
-                a, c, b = (cost[y, x, d + k] for k in (-1, 0, 1))
+                a, c, b = (number[y, x, d + k] for k in (-1, 0, 1))
                 if max(a, b) > c:
                     value[y, x] += (16 * (a - b) + max(a, b) - c) // (2 * (max(a, b) - c))
-            others = [cost[y, x, e] for e in range(min(count, x + 1)) if abs(e - d) > 1]
-            margin = min(others) - cost[y, x, d] if others else 0
+            others = [number[y, x, e] for e in range(min(count, x + 1)) if abs(e - d) > 1]
+            margin = min(others) - number[y, x, d] if others else 0
             sure[y, x] = min(255, margin >> self.c.confidence_shift)
             if abs(right[y, x - d] - d) > post.tolerance:
                 code[y, x] = INCONSISTENT
@@ -154,6 +163,16 @@ class Loops:
         return found[(len(found) - 1) // 2]
 
 
+class FuzzyLoops(Loops):
+    """The same with fuzzy inference over the criteria: costs are fractions, compared exactly."""
+
+    def cost(self, y, x, d):
+        return loop_inference([getattr(self, c.kind)(c, y, x, d) for c in self.c.criteria], self.c)
+
+    def number(self, cost):
+        return math.floor(64 * cost)
+
+
 def frames(height, width, seed):
     """Textured patches that move by three, with noise: every stage has something to do."""
     random = np.random.default_rng(seed)
@@ -191,6 +210,55 @@ def test_every_pixel_code_and_confidence(case, size):
     value, code, sure = Loops(pair.left, pair.right, config).result()
     for (y, x), expected in value.items():
         assert got.at(x, y) == (expected, code[y, x], sure[y, x]), (y, x)
+
+
+@pytest.mark.parametrize("operator", ["mean", "min", "soft_min_1"])
+def test_fuzzy_costs_with_fractions_and_confidence(operator):
+    config = fuzzy_config(operator)
+    left, right = frames(6, 11, seed=5)
+    got = fixed_model.disparity(left, right, config)
+    value, code, sure = FuzzyLoops(left, right, config).result()
+    for (y, x), expected in value.items():
+        assert got.at(x, y) == (expected, code[y, x], sure[y, x]), (y, x)
+    assert any(v % 16 for v in value.values())
+    assert len(set(sure.values())) > 3
+
+
+@pytest.mark.parametrize("operator", ["mean", "prod", "soft_min_2"])
+def test_the_float_model_of_fuzzy_costs(operator):
+    """Labels at 2**label_bits of each criterion, and the paper's equations in floating point."""
+    config = fuzzy_config(operator)
+    left, right = frames(6, 11, seed=6)
+    loops = Loops(left, right, config)
+    for y, x in ((0, 0), (2, 4), (5, 10)):
+        expected = []
+        for d in range(min(6, x + 1)):
+            found = [getattr(loops, c.kind)(c, y, x, d) / 2**c.label_bits for c in config.criteria]
+            expected.append(eq_10(found, operator, label=1, delta=config.softness, k=config.sharpness))
+        got = float_model.costs(left, right, config, x, y)
+        np.testing.assert_allclose(got[: len(expected)], expected, rtol=1e-9)
+        assert np.isinf(got[len(expected) :]).all()
+
+
+def test_the_float_model_of_sums():
+    config = Config.preset("robust").override(["disparities=6", "lanes=6"])
+    left, right = frames(6, 11, seed=7)
+    loops = Loops(left, right, config)
+    for y, x in ((0, 3), (5, 10)):
+        got = float_model.costs(left, right, config, x, y)
+        assert got[: x + 1].tolist() == [loops.cost(y, x, d) for d in range(min(6, x + 1))]
+
+
+def fuzzy_config(operator):
+    """Census, gradient and gradient again, with labels in the range of so few rows."""
+    small = [
+        {"kind": "census", "rows": 3, "taps": 3, "spacing": 1, "label_bits": 6},
+        {"kind": "gradient", "rows": 3, "columns": 3, "label_bits": 5},
+        {"kind": "gradient", "rows": 5, "columns": 5, "label_bits": 7},
+    ]
+    config = Config.preset("robust").model_dump(mode="json")
+    keys = {"cost": "fuzzy", "firing": "all", "rules": "printed", "operator": operator, "criteria": small}
+    return Config.from_dict({**config, **keys, "disparities": 6, "lanes": 6, "membership_bits": 5})
 
 
 def test_the_cases_reach_every_code():

@@ -108,7 +108,8 @@ def show(outcome: Outcome) -> None:
     for column in table.columns[1:]:
         column.justify = "right"
     for row in rows:
-        table.add_row(*(text.strip("`").removeprefix("OpenCV ") for text in row))
+        name = row[0].strip("`").removeprefix("OpenCV ").replace("our filters", "filtered")
+        table.add_row(name, *row[1:])
     screen.console().print(table)
     for scene in outcome.evaluation.scenes:
         for name, count in scene.mismatches.items():

@@ -52,7 +52,7 @@ class Work:
         clear_unfinished(self.folder)
         through = {"rtl": self._simulated, "board": self._board, "fixed": self._model}[self.recipe.engine]
         try:
-            with _executor(self.processes) as pool:
+            with _executor(min(self.processes, len(self.names))) as pool:
                 return through(pool)
         finally:
             clear_unfinished(self.folder)

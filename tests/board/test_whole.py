@@ -1,6 +1,7 @@
 """The board's top, simulated at its serial pins, and the real host command at the other end of a port."""
 
 import json
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -50,6 +51,21 @@ def test_a_clean_line(config, compute, tmp_path):
     assert link.pop("sent") >= 24 + 4
     assert set(link.values()) == {0}
     assert board.record["led"] & (ALIVE | LOCKED | BUSY | ERROR) == ALIVE | LOCKED
+
+
+def test_a_sequence(config, softdepth, files, tmp_path):
+    for side, path in (("left", files.left), ("right", files.right)):
+        (tmp_path / side).mkdir()
+        for k in range(2):
+            shutil.copy(path, tmp_path / side / f"{k}.png")
+    with plugged_in(config, tmp_path) as board:
+        outcome = softdepth(
+            *("board", "--port", board.path, "--baud", BOARD.baud, "--timeout", 30, "--processes", 1),
+            *(tmp_path / "left", tmp_path / "right", "-o", tmp_path / "out"),
+        )
+    assert outcome.code == 0, outcome.err
+    assert "gateware against fixed model: 0 mismatches" in outcome.out
+    assert json.loads((tmp_path / "out" / "sequence.json").read_text())["engine_frames_per_second"] > 0
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from softdepth.golden.data.writers import write_pfm, write_picture
 from softdepth.golden.score.metrics import evaluate
 from softdepth.sequence import video
 from softdepth.spec.config import Config
+from tests.rig import rigs
 
 NAMES = ("f8", "f9", "f10")
 """In the order that people number them."""
@@ -226,6 +227,33 @@ def test_rigs_each_with_its_own_calibration_and_frame(softdepth, recorded, tmp_p
     shutil.rmtree(out)
     assert "has no right view" in softdepth("sequence", tmp_path / "robot", *SMALL, "-o", out).error
     assert not out.exists()
+
+
+def test_raw_frames_are_rectified_as_a_pair_is(softdepth, tmp_path):
+    robot = tmp_path / "robot"
+    calibration = robot / "camchain.yaml"
+    pair = generate("random", width=rigs.SIZE[0], height=rigs.SIZE[1], disparities=8, seed=1)
+    for side in ("left", "right"):
+        (robot / side).mkdir(parents=True)
+        write_picture(robot / side / "0.png", getattr(pair, side))
+    rigs.kalibr(calibration)
+    views, single = (robot / "left", robot / "right"), (robot / "left" / "0.png", robot / "right" / "0.png")
+    rectify = ("--rectify", calibration)
+    ways = {
+        "run": ("run", *single, *rectify, *SMALL[:-2], "--engine", "fixed"),
+        "sequence": ("sequence", *views, *rectify, *SMALL),
+        "rig": ("sequence", robot, "--raw", *SMALL),
+    }
+    for name, command in ways.items():
+        outcome = softdepth(*command, "-o", tmp_path / name)
+        assert outcome.code == 0, outcome.err
+    for name in ("sequence", "rig"):
+        for file in ("disparity.pfm", "depth.tiff", "cloud.ply"):
+            found = tmp_path / name / "frames" / "0" / file
+            assert found.read_bytes() == (tmp_path / "run" / file).read_bytes()
+        expected = (tmp_path / "run" / "calibration.yml").read_bytes()
+        assert (tmp_path / name / "calibration.yml").read_bytes() == expected
+    assert "say --raw" in softdepth("sequence", robot, *SMALL, "-o", tmp_path / "none").error
 
 
 def unequal(scene: Path) -> None:

@@ -1,0 +1,148 @@
+"""Proofs by yosys' own solver: streams keep their contract, whatever comes and whenever it is taken.
+
+A property holds of every run (induction), or of every run of up to `CLOCKS` clocks from reset on; each is shown to
+fail on a block with a fault.
+"""
+
+from pathlib import Path
+from typing import Literal
+
+import pytest
+from amaranth.hdl import Assert, Module, Signal, Value
+from amaranth.lib import data, stream
+from amaranth.lib.wiring import Component, In
+
+from softdepth.flow.tools import find_tool
+from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.text.rtlil import to_rtlil
+from softdepth.spec.errors import ToolError
+
+CLOCKS = 14
+BITS = 2
+LATENCY = 1
+Fault = Literal["none", "waits for ready", "withdraws", "changes"]
+FAULTS: tuple[Fault, ...] = ("waits for ready", "withdraws", "changes")
+Proof = Literal["every run", "runs of some clocks", "refuted"]
+
+
+def proof(dut: Component, folder: Path) -> Proof:
+    """What is known of the assertions in `dut`, whose inputs are free but for its reset."""
+    (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
+    script = (
+        "read_rtlil dut.il; hierarchy -top dut; proc; flatten; memory_map; async2sync; dffunmap;"
+        " chformal -lower; setundef -undriven -zero; opt_clean; setundef -init -zero;"
+        f" sat -set rst 0 -prove-asserts -set-assumes -tempinduct -maxsteps {CLOCKS} -verify dut"
+    )
+    try:
+        find_tool("yosys").run(["-q", "-l", "log", "-p", script], folder, log="log")
+    except ToolError:
+        said = (folder / "log").read_text()
+        if "model found for base case: FAIL" in said:
+            return "refuted"
+        assert "Reached maximum number of time steps" in said, said[-500:]
+        return "runs of some clocks"
+    return "every run"
+
+
+class Watched(Component):
+    """A block whose output stream is watched: what is on offer stands until it is taken, unchanged."""
+
+    valid: In(1)
+    payload: In(BITS)
+    ready: In(1)
+
+    def __init__(self, block: Component, fault: Fault) -> None:
+        self._block, self._fault = block, fault
+        super().__init__()
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.block = block = self._block
+        if isinstance(block, ResultQueue):
+            # As it is used: a result is promised where there is credit, and comes so many clocks later.
+            promised = Signal()
+            late = Signal(LATENCY)
+            m.d.comb += [
+                promised.eq(self.valid & block.credit),
+                block.promised.eq(promised),
+                block.put.eq(late[-1]),
+                Value.cast(block.result).eq(self.payload),
+            ]
+            m.d.sync += late.eq((late << 1) | promised)
+        else:
+            m.d.comb += [block.i.valid.eq(self.valid), block.i.payload.eq(self.payload)]
+        o = stream.Signature(BITS).create()
+        m.d.comb += [
+            o.ready.eq(self.ready),
+            o.valid.eq(block.o.valid),
+            o.payload.eq(Value.cast(block.o.payload)),
+        ]
+        m.d.comb += block.o.ready.eq(o.ready)
+        match self._fault:
+            case "waits for ready":
+                m.d.comb += o.valid.eq(block.o.valid & self.ready)
+            case "withdraws":
+                m.d.comb += o.valid.eq(block.o.valid & ~(self.valid & self.payload.all()))
+            case "changes":
+                m.d.comb += o.payload.eq(Value.cast(block.o.payload) ^ self.payload)
+        waited = Signal()
+        before = Signal(BITS)
+        offered = Signal()  # it would be, were it taken
+        m.d.comb += offered.eq(o.valid)
+        m.d.sync += [waited.eq(block.o.valid & ~o.ready), before.eq(o.payload)]
+        with m.If(waited):
+            m.d.comb += Assert(offered & (o.payload == before))
+        return m
+
+
+BLOCKS = {
+    "item queue": lambda: ItemQueue(BITS),
+    "result queue": lambda: ResultQueue(data.StructLayout({"word": BITS}), LATENCY),
+}
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_what_is_on_offer_stands_unchanged_until_it_is_taken(name: str, tmp_path: Path) -> None:
+    assert proof(Watched(BLOCKS[name](), "none"), tmp_path) == "every run"
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("name", BLOCKS)
+def test_a_fault_is_refuted(name: str, fault: Fault, tmp_path: Path) -> None:
+    assert proof(Watched(BLOCKS[name](), fault), tmp_path) == "refuted"
+
+
+class Ordered(Component):
+    """`ItemQueue` beside a plain count: as many items leave as came in but for two, and in their order."""
+
+    valid: In(1)
+    ready: In(1)
+
+    def __init__(self, lost: bool) -> None:
+        self._lost = lost
+        super().__init__()
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.queue = queue = ItemQueue(4)
+        sent, got = Signal(4), Signal(4)
+        taken = Signal()
+        m.d.comb += [
+            queue.i.valid.eq(self.valid),
+            queue.i.payload.eq(sent),
+            queue.o.ready.eq(self.ready),
+            taken.eq(self.valid & (True if self._lost else queue.i.ready)),
+            Assert((sent - got)[:4] <= ItemQueue.places),
+        ]
+        with m.If(taken):
+            m.d.sync += sent.eq(sent + 1)
+        with m.If(queue.o.valid & self.ready):
+            m.d.comb += Assert(queue.o.payload == got)
+            m.d.sync += got.eq(got + 1)
+        return m
+
+
+def test_items_are_neither_lost_nor_doubled(tmp_path: Path) -> None:
+    assert proof(Ordered(lost=False), tmp_path) != "refuted"
+    assert proof(Ordered(lost=True), tmp_path) == "refuted"

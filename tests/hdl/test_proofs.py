@@ -1,7 +1,7 @@
 """Proofs by yosys' own solver: streams keep their contract, whatever comes and whenever it is taken.
 
-A property holds of every run (induction), or of every run of up to `CLOCKS` clocks from reset on; each is shown to
-fail on a block with a fault.
+A property holds of every run (induction), or of every run of up to `CLOCKS` clocks from reset on; each is
+shown to fail on a block with a fault.
 """
 
 from pathlib import Path

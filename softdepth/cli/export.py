@@ -1,13 +1,15 @@
 """``softdepth export``: a configured core as Verilog."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.cli.bundle import bundled
+from softdepth.spec.config import Config
+from softdepth.spec.edge import Bus, Edge
 from softdepth.spec.errors import InputError
 
 DESCRIPTION = ".json"
@@ -22,7 +24,8 @@ def export(
             "-o",
             "--output",
             metavar="FILE",
-            help="Verilog file, beside which a .json describes the core; - is standard output.",
+            help="Verilog file, beside which a .json describes the core; - is standard output. With --ip, a"
+            " folder.",
         ),
     ],
     choice: options.Choice,
@@ -30,9 +33,21 @@ def export(
         str,
         typer.Option("--name", metavar="NAME", help="Module, and what all its modules' names begin with."),
     ] = "softdepth_core",
+    ip: Annotated[
+        Literal["axi"] | None,
+        typer.Option("--ip", help="A package with AXI4-Stream Video and registers: docs/axi.md."),
+    ] = None,
+    bus: Annotated[
+        Literal["axi-lite", "wishbone"] | None, typer.Option("--bus", help="Of the registers, with --ip.")
+    ] = None,
 ) -> None:
-    """Write the core as one self-contained Verilog file."""
+    """Write the core as one self-contained Verilog file, or as a package for a design with AXI streams."""
     chosen = choice.configuration()
+    if ip is None and bus is not None:
+        raise InputError(f"--bus {bus} without --ip: the plain core has no registers", "add --ip axi")
+    if ip is not None:
+        _package(chosen, name, output, bus or "axi-lite")
+        return
     on_screen = str(output) == "-"
     from softdepth.export.core_file import check_export, export_core
     from softdepth.files import check_writable, is_replaced, refuse_to_replace, write_atomically
@@ -54,3 +69,18 @@ def export(
     write_atomically(output, exported.verilog.encode())
     beside = f"; described in {description}" if description else ""
     screen.note(f"{output}: module {name}, configuration {chosen.name} ({chosen.hash}){beside}")
+
+
+def _package(config: Config, name: str, output: Path, bus: Bus) -> None:
+    """The core with AXI streams, as files in a folder."""
+    from softdepth.export.axi_package import axi_package
+    from softdepth.export.core_file import check_export
+    from softdepth.files import result_folder
+
+    if str(output) == "-":
+        raise InputError("--ip writes a folder, and '-' is standard output", "name a folder with -o")
+    check_export(config, name)
+    with result_folder(output, last=f"{name}.core") as folder:
+        for file, text in axi_package(config, name, Edge(bus=bus)).items():
+            (folder / file).write_text(text.rstrip("\n") + "\n")
+    screen.note(f"{output}: module {name} with AXI streams, configuration {config.name} ({config.hash})")

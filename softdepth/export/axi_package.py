@@ -1,0 +1,56 @@
+"""The core with AXI streams as a package: what a design takes in to use it."""
+
+import tempfile
+from importlib.metadata import version
+from pathlib import Path
+
+from peakrdl_cheader.exporter import CHeaderExporter
+from peakrdl_markdown import MarkdownExporter
+
+from softdepth.hdl.axi.core import AxiCore
+from softdepth.hdl.text.rtlil import ports_of
+from softdepth.hdl.verilog import to_verilog
+from softdepth.spec.config import Config
+from softdepth.spec.edge import Edge
+from softdepth.spec.registers import SOURCE, address_map, definitions
+from softdepth.templates import render
+
+REGISTERS = "registers.rdl"
+HEADER = "registers.h"
+PAGE = "registers.md"
+
+
+def axi_package(config: Config, name: str, edge: Edge) -> dict[str, str]:
+    """The files of the package by their names.
+
+    Verilog; the registers in SystemRDL, as a C header and as a page; instantiations in Verilog and VHDL; and
+    a FuseSoC core, whose target ``lint`` has Verilator read it.
+    """
+    core = AxiCore(config, edge)
+    ports = [
+        {"name": port.name, "direction": port.flow.name.lower(), "width": len(port.value)}  # type: ignore[arg-type]
+        for port in ports_of(core)
+    ]
+    defined = definitions(config, separate=edge.separate)
+    values = {
+        "name": name,
+        "config": config,
+        "ports": ports,
+        "defined": defined,
+        "version": version("softdepth"),
+    }
+    written = {
+        f"{name}.v": to_verilog(core, name),
+        f"{name}_instance.v": render("softdepth.export", "instance.v", **values),
+        f"{name}_instance.vhd": render("softdepth.export", "instance.vhd", **values),
+        f"{name}.core": render("softdepth.export", "fusesoc.core", **values),
+        f"{name}.vlt": render("softdepth.export", "waivers.vlt", **values),
+        f"{name}.sdc": render("softdepth.export", "axi.sdc", **values),
+        REGISTERS: "".join(f"`define {key} {value}\n" for key, value in defined.items()) + SOURCE.read_text(),
+    }
+    node = address_map(defined)
+    with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
+        header, page = Path(folder) / HEADER, Path(folder) / PAGE
+        CHeaderExporter().export(node, str(header))
+        MarkdownExporter().export(node, str(page), input_files=[REGISTERS])
+        return written | {HEADER: header.read_text(), PAGE: page.read_text()}

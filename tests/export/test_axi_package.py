@@ -1,0 +1,98 @@
+"""The package with AXI streams, as those who take it in use it."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from softdepth.cli.app import main
+from softdepth.export.axi_package import axi_package
+from softdepth.sim.toolchain import find_toolchain
+from softdepth.spec.config import Config
+from softdepth.spec.edge import Edge
+from softdepth.spec.registers import registers
+
+SMALL = Config.preset("sad").override(["max_width=64", "max_height=48", "disparities=8", "lanes=4"])
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("package")
+    SMALL.save(folder / "small.toml")
+    target = folder / "ip"
+    main(
+        [
+            "export",
+            "--ip",
+            "axi",
+            "--config",
+            str(folder / "small.toml"),
+            "--name",
+            "depth",
+            "-o",
+            str(target),
+        ]
+    )
+    return target
+
+
+def lint(package: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    tools = find_toolchain()
+    homes = {f"XDG_{name}_HOME": str(folder / name) for name in ("CONFIG", "CACHE", "DATA")}
+    paths = (str(Path(tools.verilator).parent), str(Path(sys.executable).parent), os.environ["PATH"])
+    return subprocess.run(
+        ["fusesoc", "--cores-root", str(package), "run", "--target=lint", "depth"],
+        cwd=folder,
+        env={**tools.environment, **homes, "PATH": os.pathsep.join(paths)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_fusesoc_lints(package: Path, tmp_path: Path) -> None:
+    done = lint(package, tmp_path)
+    assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
+
+
+def test_fusesoc_would_say_so(package: Path, tmp_path: Path) -> None:
+    core = package / "depth.v"
+    text = core.read_text()
+    latch = "  reg latched_here; always @* if (aclk) latched_here = irq;\nendmodule"
+    head, _, rest = text.partition("module depth(")
+    core.write_text(f"{head}module depth({rest.replace('endmodule', latch, 1)}")
+    try:
+        done = lint(package, tmp_path)
+        assert done.returncode
+        assert "%Warning-LATCH" in done.stdout + done.stderr
+    finally:
+        core.write_text(text)
+
+
+def test_a_c_compiler_reads_the_header(package: Path, tmp_path: Path) -> None:
+    places = "\n".join(
+        f'_Static_assert(offsetof(softdepth_t, {r.name}) == {r.address}, "{r.name}");'
+        for r in registers(SMALL)
+    )
+    (tmp_path / "test.c").write_text(f'#include <stddef.h>\n#include "registers.h"\n{places}\n')
+    subprocess.run(["gcc", "-std=c11", "-fsyntax-only", f"-I{package}", "test.c"], cwd=tmp_path, check=True)
+
+
+def test_the_templates_have_every_port(package: Path) -> None:
+    ports = re.findall(
+        r"^  (?:in|out)put (?:\[[\d:]+\] )?(\w+);", (package / "depth.v").read_text(), re.MULTILINE
+    )
+    for file in ("depth_instance.v", "depth_instance.vhd"):
+        text = (package / file).read_text()
+        assert all(
+            port in re.findall(r"\w+", text) for port in ("aclk", "s_axis_tdata", "irq", *ports[:3])
+        ), file
+
+
+def test_wishbone_in_place_of_axi_lite() -> None:
+    text = axi_package(SMALL, "depth", Edge(bus="wishbone"))["depth_instance.v"]
+    assert ".wb_ack(wb_ack)" in text
+    assert "s_axil" not in text

@@ -6,7 +6,6 @@ import zlib
 import numpy as np
 import pytest
 
-from softdepth.hdl.boards.link import SerialCore
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
 from softdepth.spec.protocol import (
@@ -88,7 +87,7 @@ def test_a_line_that_no_packet_holds_is_refused(pixel):
     assert decode(inside(encode(Packet(Type.LINE, 0, payload)))) is not None
     assert len(payload) + pair_bytes(config.pixel) > LONGEST
     with pytest.raises(ConfigError, match=r"max_width = 5462: .*; use a max_width of at most 5461"):
-        SerialCore(config.override(["max_width=5462"]), 16, b"")
+        check_lines(config.override(["max_width=5462"]))
 
 
 def test_every_other_line_fits_however_long():

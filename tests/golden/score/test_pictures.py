@@ -204,3 +204,16 @@ def test_pictures_are_reproducible(picture: np.ndarray) -> None:
 def test_no_panel() -> None:
     with pytest.raises(InputError, match="no picture"):
         side_by_side([])
+
+
+def test_negative_disparities_have_colours_of_their_own():
+    """Of a core whose range begins below 0: the smallest is blue, 0 lies between, and none is without result."""
+    disparity = np.linspace(-8, 7, 16).reshape(2, 8)
+    valid = np.ones(disparity.shape, bool)
+    low, high = colour_range(disparity, valid)
+    assert (low, high) == (-8, 7)
+    picture = colour(disparity, valid, high, minimum=low).reshape(-1, 3)
+    assert len(np.unique(picture, axis=0)) == 16
+    shifted = colour(disparity + 8, valid, high + 8).reshape(-1, 3)
+    assert np.array_equal(picture, shifted)
+    assert not (picture == NO_RESULT).all(axis=1).any()

@@ -207,7 +207,7 @@ def test_no_panel() -> None:
 
 
 def test_negative_disparities_have_colours_of_their_own():
-    """Of a core whose range begins below 0: the smallest is blue, 0 lies between, and none is without result."""
+    """Of a core whose range begins below 0: each has its own colour, and none looks like no result."""
     disparity = np.linspace(-8, 7, 16).reshape(2, 8)
     valid = np.ones(disparity.shape, bool)
     low, high = colour_range(disparity, valid)

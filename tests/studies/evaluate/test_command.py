@@ -115,3 +115,21 @@ def test_mistakes_are_told_before_the_work(folder, arguments, error, capsys, tmp
     monkeypatch.setattr(work, "run", lambda *_: pytest.fail("the work has begun"))
     assert main(["evaluate", "--scenes", str(folder), *arguments]) == 2
     assert error in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_scored_maps_of_the_gateware_are_the_models(tmp_path):
+    """``--engine rtl`` scores simulated maps, and says for each scene in how many pixels they differ."""
+    write_scene(tmp_path / "scenes" / "tiny", width=40, height=16)
+    for engine in ("rtl", "fixed"):
+        arguments = ["--preset", "sad", "--set", "disparities=16", "--processes", "1", "--engine", engine]
+        output = tmp_path / engine
+        assert main(["evaluate", "--scenes", str(tmp_path / "scenes"), *arguments, "-o", str(output)]) == 0
+    simulated, model = (
+        Evaluation.model_validate_json((tmp_path / engine / "evaluate.json").read_text())
+        for engine in ("rtl", "fixed")
+    )
+    assert (simulated.engine, model.engine) == ("rtl", "fixed")
+    assert simulated.scenes[0].mismatches == {"sad": 0}
+    assert model.scenes[0].mismatches == {}
+    assert simulated.scenes[0].scores == model.scenes[0].scores

@@ -110,11 +110,25 @@ class Neighbours(wiring.Component):
                 m.d.sync += held.eq(Mux(first[joined], 0, held) | one)
             m.d.comb += [getattr(self, name).eq(held[:bits]), getattr(self, f"has_{name}").eq(held[bits])]
 
+        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table of
+        # the choice, and not one of every operand.
         pipeline = Pipeline(m, levels=1)
+        nears = [
+            self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]
+            for k in range(lanes)
+        ]
         far: list[Word] = []
-        for k in range(lanes):
-            near = self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]
-            far.append(pipeline.result(Mux(near, none, self.costs[k]), 0, none, 0))
+        for k in range(0, lanes, 2):
+            a, b = self.costs[k], self.costs[min(k + 1, lanes - 1)]
+            near, other = nears[k], nears[min(k + 1, lanes - 1)]
+            takes_b = Signal(name=f"takes_{k}")
+            neither = Signal(name=f"neither_{k}")
+            m.d.comb += [
+                takes_b.eq(near | (~other & (b - a)[-1])),
+                neither.eq(near & other),
+            ]
+            best = Mux(takes_b, b, a) | neither.replicate(bits)
+            far.append(pipeline.result(best, 0, none, 0))
 
         def less(a: Word, b: Word) -> Word:
             a, b = pipeline.aligned(a, b)

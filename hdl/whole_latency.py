@@ -18,6 +18,7 @@ from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.confidence import Confidence
 from softdepth.hdl.post.left_right import LeftRight
 from softdepth.hdl.post.sixteenths import Sixteenths
+from softdepth.hdl.post.stages import masked_medians_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.shapes import cost_bits
@@ -60,11 +61,11 @@ class WholeLatency:
         # winners are known so many columns later, which are the next line's.
         column = config.disparities - 2 + ahead if post.check else 0
         with asked():
-            clocks = _up_to_winners(config, ahead, gradient=gradients > 0)
+            clocks = _up_to_winners(config, ahead, gradient=gradients > 0) + _behind(config)
         return cls(
             rows=reach.below + post.below + ahead + 1,
             column=column,
-            clocks=clocks + _behind(config),
+            clocks=clocks,
             right=reach.right,
             below=reach.below,
             drain=config.disparities - 1 if post.check else 0,
@@ -108,5 +109,5 @@ def _behind(config: Config) -> int:
     if post.median:
         clocks += window(MEDIAN_REACH, median)
     if post.masked_median:
-        clocks += window(post.masked_median, median) + window(0, median)
+        clocks += masked_medians_of(config).latency + QUEUE_LATENCY
     return clocks

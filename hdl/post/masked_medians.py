@@ -25,8 +25,8 @@ class MaskedMedians(wiring.Component):
     Two pixels are compared once, when the later one comes in, and the answer is kept for both. So half the
     comparisons are built, the rows above keep their colours for half the reach alone, and a pixel that lies
     outside is like none: neither its colour nor its value is then looked at, and no edge is repeated. Both
-    medians go by the same slots: ``reach`` rows and ``reach`` pixels more a frame, in which the input is held
-    back. A result every ``clocks`` clocks.
+    medians go by the same slots: ``reach`` more a line and ``reach`` lines more a frame, in which the input
+    is held back. A result every ``clocks`` clocks.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class MaskedMedians(wiring.Component):
         # The same pixel, compared with those above it.
         m.submodules.colours = above = RowStack([(compared, reach)], self._max_width, clocks)
         m.d.comb += [
-            above.valid.eq(slot[1]),
+            above.valid.eq(travelling(m, slots.stores, 1, "stores")[-1]),
             above.place.eq(delayed(m, slots.x, 1, "x")),
             above.items["0"].eq(colours[above.ahead]),
         ]
@@ -122,7 +122,7 @@ class MaskedMedians(wiring.Component):
         # The row's median goes on top of its column, with what the pixel was compared to.
         centre = Cat(values[reach], Value.cast(passing[reach]))
         ready = 2 + row.latency
-        put = max(ready, compares + 1, 1 + RowStack.ahead)
+        put = self._put()
         centre = delayed(m, centre, put - 2, "centre")
         middle = delayed(m, row.o, put - ready, "middle")
         if self._holes:
@@ -156,7 +156,7 @@ class MaskedMedians(wiring.Component):
             last.keep.eq(self._kept([t[:reach] for t in tags])),
         ]
 
-        latency = put + wait + 1 + last.latency
+        latency = self._after_slot()
         layout = post_layout(self._value_bits, 0)
         m.submodules.queue = queue = ResultQueue(layout, -(-latency // clocks) + 1)
         rest = data.View(kept_along, delayed(m, tags[reach][reach:], last.latency, "rest"))
@@ -182,6 +182,18 @@ class MaskedMedians(wiring.Component):
         ]
         wiring.connect(m, queue.o, wiring.flipped(self.o))
         return m
+
+    @property
+    def latency(self) -> int:
+        """Clocks from a line's last pixel to when the line's last result can be in the queue."""
+        return self._reach * self._clocks + self._after_slot()
+
+    def _put(self) -> int:
+        """Clocks from a slot to when its row's median goes on top of its column."""
+        return max(2 + 2 * self._value_bits, 2 + RowStack.ahead + self._clocks - 1)
+
+    def _after_slot(self) -> int:
+        return self._put() + (self._clocks - 1) + 1 + 2 * self._value_bits
 
     def _alike(self, a: Value, b: Value) -> Value:
         bits = self._colour_bits

@@ -8,9 +8,9 @@ from softdepth.hdl.memory.window import MARKERS
 
 
 class PostSlots(wiring.Component):
-    """Goes through a frame pixel by pixel, and on for ``reach`` rows and ``reach`` pixels below it.
+    """Goes through a frame pixel by pixel, on for ``reach`` slots behind each line and ``reach`` lines below.
 
-    A slot is a clock in which a pixel enters, of the frame or below it. The pixel ``reach`` slots before it
+    A slot is a clock in which a pixel enters, of the frame or beyond it. The pixel ``reach`` slots before it
     is then in the middle of its row, and the one ``reach`` rows above that in the middle of its column.
 
     Parameters
@@ -22,7 +22,8 @@ class PostSlots(wiring.Component):
     -------
     valid, ready, sof, eol, eof, damaged : the pixels of sound frames.
     credit : a slot may be.
-    slot, x : there is one, and the pixel's column.
+    slot : there is one.
+    stores, x : its pixel lies in the frame's columns, and in which.
     before, above : of the ``reach`` pixels before it, and above it, nearest first, which lie in its line, and
         in the frame. None does above a pixel below the frame.
     enters, o_eol : the middle of the row is a pixel of the frame or below, and its line's last.
@@ -39,6 +40,7 @@ class PostSlots(wiring.Component):
                 **{name: In(1) for name in MARKERS},
                 "credit": In(1),
                 "slot": Out(1),
+                "stores": Out(1),
                 "x": Out(range(max_width)),
                 "before": Out(reach),
                 "above": Out(reach),
@@ -54,7 +56,7 @@ class PostSlots(wiring.Component):
         m = Module()
         reach = self._reach
         below = Signal(range(reach + 1))  # rows below the frame that are still to come, this one included
-        after = Signal(range(reach + 1))  # and pixels below these
+        after = Signal(range(reach + 1))  # slots behind the line
         x = Signal(range(self._max_width))
         last_x = Signal.like(x)
         beside = Signal(reach)  # a bit for each pixel of the line so far
@@ -69,6 +71,7 @@ class PostSlots(wiring.Component):
             trailing.eq(after != 0),
             self.ready.eq(may & ~flushing & ~trailing),
             self.slot.eq(may & (flushing | trailing | self.valid)),
+            self.stores.eq(self.slot & ~trailing),
         ]
         if self._clocks > 1:
             m.d.sync += pauses.eq(self.slot)
@@ -85,24 +88,22 @@ class PostSlots(wiring.Component):
             self.before.eq(beside),
             self.above.eq(Mux(outside, 0, now)),
         ]
-        with m.If(self.slot):
-            m.d.sync += [x.eq(Mux(last, 0, x + 1)), beside.eq(Mux(last, 0, Cat(1, beside)))]
+        with m.If(self.slot & trailing):
+            m.d.sync += after.eq(after - 1)
+        with m.Elif(self.slot):
+            m.d.sync += [
+                x.eq(Mux(last, 0, x + 1)),
+                beside.eq(Mux(last, 0, Cat(1, beside))),
+                rows.eq(Mux(last, Cat(1, now), now)),
+            ]
             with m.If(last):
-                m.d.sync += [rows.eq(Cat(1, now)), last_x.eq(x)]
-            with m.Else():
-                m.d.sync += rows.eq(now)
-            with m.If(~outside):
+                m.d.sync += [last_x.eq(x), after.eq(reach)]
+            with m.If(~flushing):
                 m.d.sync += damaged.eq(self.damaged | (damaged & ~starts))
                 with m.If(self.eof):
                     m.d.sync += below.eq(reach)
-            with m.If(flushing & last):
+            with m.Elif(last):
                 m.d.sync += below.eq(below - 1)
-                with m.If(below == 1):
-                    m.d.sync += after.eq(reach)
-            with m.If(trailing):
-                m.d.sync += after.eq(after - 1)
-                with m.If(after == 1):
-                    m.d.sync += [x.eq(0), beside.eq(0)]
 
         # What is known of each pixel until it is in the middle of its row.
         enters, emits = Signal(reach), Signal(reach)

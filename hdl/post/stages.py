@@ -14,7 +14,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
 
     The left-right check, fractions and confidence are among the winners, which know the costs.
     """
-    post, channels = config.post, config.pixel.channels
+    post = config.post
     size = (config.result_bits, config.pixel.size)
     holes = not post.fill
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
@@ -26,13 +26,20 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
         reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
         stages["median"] = Median(*size, config.max_width, **reach, holes=holes)
     if post.masked_median:
-        stages["masked_medians"] = MaskedMedians(
-            *size,
-            channels,
-            config.max_width,
-            reach=post.masked_median,
-            like=post.like << (config.pixel.bits - LIKE_BITS),
-            holes=holes,
-            clocks=min(config.steps, 2),
-        )
+        stages["masked_medians"] = masked_medians_of(config)
     return stages
+
+
+def masked_medians_of(config: Config) -> MaskedMedians:
+    """The stage of both masked medians."""
+    post, pixel = config.post, config.pixel
+    return MaskedMedians(
+        config.result_bits,
+        pixel.size,
+        pixel.channels,
+        config.max_width,
+        reach=post.masked_median,
+        like=post.like << (pixel.bits - LIKE_BITS),
+        holes=not post.fill,
+        clocks=min(config.steps, 2),
+    )

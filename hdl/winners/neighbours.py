@@ -110,8 +110,8 @@ class Neighbours(wiring.Component):
                 m.d.sync += held.eq(Mux(first[joined], 0, held) | one)
             m.d.comb += [getattr(self, name).eq(held[:bits]), getattr(self, f"has_{name}").eq(held[bits])]
 
-        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table of
-        # the choice, and not one of every operand.
+        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table
+        # of the choice, and not one of every operand.
         pipeline = Pipeline(m, levels=1)
         nears = [
             self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]

@@ -42,6 +42,7 @@ class WholeLatency:
         where pixels come slowly and that result is a measurement.
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
+    masked : reach of the masked medians, which take as many slots more a line, and lines more a frame.
     """
 
     rows: int
@@ -50,6 +51,7 @@ class WholeLatency:
     right: int
     below: int
     drain: int
+    masked: int
 
     @classmethod
     def of(cls, config: Config) -> "WholeLatency":
@@ -69,11 +71,14 @@ class WholeLatency:
             right=reach.right,
             below=reach.below,
             drain=config.disparities - 1 if post.check else 0,
+            masked=post.masked_median,
         )
 
     def frame_clocks(self, width: int, height: int, steps: int) -> int:
         """From a frame's first pixel to the next one's, where pixels are always on offer."""
-        return ((width + self.right) * (height + self.below) + self.drain) * steps
+        costs = ((width + self.right) * (height + self.below) + self.drain) * steps
+        medians = (width + self.masked) * (height + self.masked) * min(steps, 2)
+        return max(costs, medians)
 
 
 def _up_to_winners(config: Config, ahead: int, *, gradient: bool) -> int:
@@ -109,5 +114,9 @@ def _behind(config: Config) -> int:
     if post.median:
         clocks += window(MEDIAN_REACH, median)
     if post.masked_median:
-        clocks += masked_medians_of(config).latency + QUEUE_LATENCY
+        stage = masked_medians_of(config)
+        clocks += stage.latency + QUEUE_LATENCY
+        # A line's last results come in a row, as windows repeat its last column.
+        in_a_row = ISLAND_REACH * bool(post.island) + MEDIAN_REACH * bool(post.median)
+        clocks += in_a_row * (stage.clocks - 1)
     return clocks

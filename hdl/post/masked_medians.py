@@ -53,7 +53,7 @@ class MaskedMedians(wiring.Component):
     ) -> None:
         self._value_bits, self._colour_bits, self._channels = value_bits, colour_bits, channels
         self._max_width, self._reach, self._like = max_width, reach, like
-        self._holes, self._clocks = holes, clocks
+        self._holes, self.clocks = holes, clocks
         self._layout = post_layout(value_bits, colour_bits)
         super().__init__(
             {
@@ -64,7 +64,7 @@ class MaskedMedians(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        reach, clocks = self._reach, self._clocks
+        reach, clocks = self._reach, self.clocks
         across = 2 * reach + 1
         members = self._layout.members
         m.submodules.slots = slots = PostSlots(reach, self._max_width, clocks)
@@ -186,14 +186,14 @@ class MaskedMedians(wiring.Component):
     @property
     def latency(self) -> int:
         """Clocks from a line's last pixel to when the line's last result can be in the queue."""
-        return self._reach * self._clocks + self._after_slot()
+        return self._reach * self.clocks + self._after_slot()
 
     def _put(self) -> int:
         """Clocks from a slot to when its row's median goes on top of its column."""
-        return max(2 + 2 * self._value_bits, 2 + RowStack.ahead + self._clocks - 1)
+        return max(2 + 2 * self._value_bits, 2 + RowStack.ahead + self.clocks - 1)
 
     def _after_slot(self) -> int:
-        return self._put() + (self._clocks - 1) + 1 + 2 * self._value_bits
+        return self._put() + (self.clocks - 1) + 1 + 2 * self._value_bits
 
     def _alike(self, a: Value, b: Value) -> Value:
         bits = self._colour_bits

@@ -16,6 +16,7 @@ class FaultCounters(wiring.Component):
     Members
     -------
     short_lines, long_lines, early_starts, missing_starts : such a fault is met in this clock.
+    again : what is reported in this clock will be again, and counts then.
     clear : the counters begin at 0.
     met : the faults of the clock before.
     status : the counters since reset; they stay at their greatest value.
@@ -27,6 +28,7 @@ class FaultCounters(wiring.Component):
         super().__init__(
             {
                 **{name: In(1) for name in Status.members},
+                "again": In(1),
                 "clear": In(1),
                 "met": Out(Faults),
                 "status": Out(Status),
@@ -35,12 +37,15 @@ class FaultCounters(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
+        again = Signal()
+        m.d.sync += again.eq(self.again)
         for name in Status.members:
             met = Signal(name=f"met_{name}")
             counter = self.status[name]
             m.d.sync += met.eq(getattr(self, name))
-            m.d.comb += self.met[name].eq(met)
-            with m.If(met & (counter != 2**COUNTER_BITS - 1)):
+            fault = Signal(name=f"fault_{name}")
+            m.d.comb += [fault.eq(met & ~again), self.met[name].eq(fault)]
+            with m.If(fault & (counter != 2**COUNTER_BITS - 1)):
                 m.d.sync += counter.eq(counter + 1)
             with m.If(self.clear):
                 m.d.sync += counter.eq(0)

@@ -115,6 +115,7 @@ class FrameGuard(wiring.Component):
             self.o.valid.eq(passes | fills | ends),
             self.i.ready.eq((passes & self.o.ready) | drops),
             taken.eq(self.o.valid & self.o.ready),
+            counters.again.eq(self.o.valid & ~self.o.ready),
         ]
 
         # The column of the next pixel. The rest is known a pixel ahead: a line has more than one.
@@ -173,8 +174,8 @@ class FrameGuard(wiring.Component):
             def pass_on() -> None:
                 """The pixel leaves, and the next belongs to the same line or lies behind it."""
                 m.d.comb += passes.eq(1)
+                m.d.comb += [counters.short_lines.eq(short), counters.long_lines.eq(cut)]
                 with m.If(taken):
-                    m.d.comb += [counters.short_lines.eq(short), counters.long_lines.eq(cut)]
                     with m.If(short):
                         m.next = "PAD"
                     with m.Elif(~line_ends):
@@ -223,11 +224,9 @@ class FrameGuard(wiring.Component):
                     m.d.comb += [ends.eq(1), found.eq(1)]
                 with m.If(offers_rest & ~learner.is_lowest):
                     pass_on()
+                m.d.comb += counters.early_starts.eq(offers_start & learner.knows_end)
                 with m.If(ends & taken):
-                    m.d.comb += [
-                        counters.early_starts.eq(starts & learner.knows_end),
-                        learner.whole.eq(starts & ~damaged),
-                    ]
+                    m.d.comb += learner.whole.eq(starts & ~damaged)
                     m.next = "OUTSIDE"
             with m.State("LINE"):
                 with m.If(offers_start):
@@ -243,9 +242,8 @@ class FrameGuard(wiring.Component):
                         m.next = "OUTSIDE"
             with m.State("SKIP"):
                 with m.If(offers_start):
-                    m.d.comb += ends.eq(1)
+                    m.d.comb += [ends.eq(1), counters.early_starts.eq(1)]
                     with m.If(taken):
-                        m.d.comb += counters.early_starts.eq(1)
                         m.next = "OUTSIDE"
                 with m.If(offers_rest):
                     m.d.comb += drops.eq(1)

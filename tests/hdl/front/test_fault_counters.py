@@ -22,6 +22,14 @@ def test_each_fault_in_its_counter() -> None:
         assert found == {name: sum(k in faults for faults in met[: n + 1]) for k, name in enumerate(NAMES)}
 
 
+def test_what_comes_again_is_counted_once() -> None:
+    met = [(1, 1), (1, 1), (1, 0), (0, 0), (0, 1), (1, 0), (1, 0)]
+    clocks: list[Ports] = [{NAMES[2]: report, "again": again} for report, again in met]
+    clocks.append({NAMES[2]: 0, "again": 0})
+    found = [each[NAMES[2]] for each in counts(clocks)]
+    assert found[:7] == [0, 0, 1, 1, 1, 2, 3]
+
+
 def test_counters_stop_at_their_greatest_value() -> None:
     most = 2**COUNTER_BITS - 1
     clocks: list[Ports] = [{NAMES[0]: 1}] * (most + 3) + [{NAMES[0]: 0, NAMES[3]: 1}]

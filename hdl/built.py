@@ -1,7 +1,10 @@
 """Which configurations there is gateware for."""
 
+from collections import Counter
+
+from softdepth.hdl.costs.comparison import COMPARISONS
 from softdepth.hdl.costs.lane import CRITERIA
-from softdepth.spec.config import Census, Config, Gradient, Sad
+from softdepth.spec.config import Config, Sad
 from softdepth.spec.errors import ConfigError
 
 
@@ -14,12 +17,16 @@ def _missing_of_whole(config: Config) -> tuple[str, ...]:
     gaps = [
         _of_kind(i, criterion.kind)
         for i, criterion in enumerate(config.criteria)
-        if not isinstance(criterion, Census | Gradient)
+        if criterion.kind not in COMPARISONS
     ]
     if config.cost == "fuzzy":
         gaps.append("cost = 'fuzzy' of criteria without a border band")
-    if sum(isinstance(criterion, Census) for criterion in config.criteria) > 1:
-        gaps.append("more than one criterion of kind 'census'")
+    fields = Counter(
+        (c.kind, COMPARISONS[c.kind](c, number).field)
+        for number, c in enumerate(config.criteria)
+        if c.kind in COMPARISONS
+    )
+    gaps += [f"more than one criterion of kind '{kind}'" for (kind, _), n in fields.items() if n > 1]
     if config.min_disparity:
         gaps.append("min_disparity of criteria without a border band")
     return tuple(gaps)

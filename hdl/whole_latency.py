@@ -22,7 +22,7 @@ from softdepth.hdl.post.stages import masked_medians_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.shapes import cost_bits
-from softdepth.spec.config import Config, Gradient
+from softdepth.spec.config import Config
 from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
 
 FRAME_ENDS_LATENCY = 1
@@ -57,7 +57,7 @@ class WholeLatency:
     def of(cls, config: Config) -> "WholeLatency":
         """Derived from what the core's blocks state."""
         reach, post = plan(config), config.post
-        gradients = sum(isinstance(c.criterion, Gradient) for c in reach.comparisons)
+        gradients = sum(c.cap is not None for c in reach.comparisons)
         ahead = CENSUS_REACH if gradients < len(reach.comparisons) else GRADIENT_REACH
         # A line's last pixel waits for the next to come, which may be the frame's end; the right view's
         # winners are known so many columns later, which are the next line's.

@@ -8,6 +8,8 @@ from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 
+from softdepth.spec.registry import extension_files
+
 PACKAGE = Path(__file__).resolve().parent
 PROJECT = PACKAGE.parent
 
@@ -42,9 +44,9 @@ def covered(*rooms: str) -> tuple[str, ...]:
 
 
 def sources_hash(*rooms: str, further: tuple[Path, ...] = ()) -> str:
-    """Twenty hex digits that change with the sources of `rooms`, of what they build on, and of `further`."""
+    """20 hex digits that tell the sources of `rooms`, what they build on, extensions and `further`."""
     digest = hashlib.sha256(_rooms_hash(covered(*rooms)))
-    for file in further:
+    for file in (*extension_files(), *further):
         digest.update(file.name.encode() + b"\0" + file.read_bytes())
     return digest.hexdigest()[:20]
 

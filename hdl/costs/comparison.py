@@ -1,13 +1,16 @@
 """What a criterion without a border band compares, and over which rows and columns it sums."""
 
-from dataclasses import dataclass
-from typing import cast
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
 
 from amaranth.hdl import Shape, unsigned
+from amaranth.lib import wiring
 
 from softdepth.hdl.costs.criteria.unlikeness import GradientDifference, Hamming
 from softdepth.spec.config import Config
 from softdepth.spec.criteria import RECIPROCAL_BITS, SUPPORT_SHIFT, Census, Gradient
+from softdepth.spec.registry import Registry
 
 LIKE_BITS = 8
 """Bits of the values in which a configuration says what colours are alike."""
@@ -19,45 +22,74 @@ class Comparison:
 
     Members
     -------
-    field : which descriptor.
+    field : which descriptor; criteria of one core have different ones.
     shape : of that.
-    new, old : rows above the newest of that which enters its sums and that which leaves them.
+    rows : rows that are summed.
     reach : columns to either side of the pixel.
-    spacing, taps : with a support: its columns; ``taps`` is 0 without.
+    pixel_maximum : the largest difference of a pixel.
+    differences : makes a block that compares two descriptors, with the ports of `Hamming`.
+    spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
+    own_shift : bits by which the value is more than the sum.
+    cap : the bound of the gradient that is its descriptor; None where that is the census.
+    new, old : rows above the newest of that which enters its sums and that which leaves them; by `plan`.
     """
 
-    criterion: Census | Gradient
     field: str
     shape: Shape
-    new: int
-    old: int
+    rows: int
     reach: int
-    taps: int
-    spacing: int
-
-    @property
-    def pixel_maximum(self) -> int:
-        """The largest difference of a pixel."""
-        if isinstance(self.criterion, Census):
-            return self.criterion.bits
-        return max(min(self.criterion.truncation, 2 * self.criterion.cap), self.criterion.neutral)
-
-    @property
-    def own_shift(self) -> int:
-        """Bits by which the value is more than the sum: a column alone counts as a mean of one."""
-        return RECIPROCAL_BITS - SUPPORT_SHIFT if isinstance(self.criterion, Census) else 0
+    pixel_maximum: int
+    differences: Callable[[], wiring.Component]
+    taps: int = 0
+    spacing: int = 0
+    like: int = 0
+    own_shift: int = 0
+    cap: int | None = None
+    new: int = 0
+    old: int = 0
 
     @property
     def column_maximum(self) -> int:
         """The largest sum of a column."""
-        return self.criterion.rows * self.pixel_maximum
+        return self.rows * self.pixel_maximum
 
-    def differences(self) -> Hamming | GradientDifference:
-        """A block that compares two descriptors."""
-        if isinstance(self.criterion, Census):
-            return Hamming(self.criterion.bits, self.criterion.neutral)
-        largest, cut = 2 * self.criterion.cap, self.criterion.truncation
-        return GradientDifference(self.shape, largest, cut, self.criterion.neutral)
+
+COMPARISONS: Registry[Callable[[Any, int], Comparison]] = Registry("criterion's comparison")
+"""Of each kind without a border band: from the criterion, and its number in the configuration."""
+
+
+def _census(criterion: Census, number: int) -> Comparison:
+    taps, spacing = (criterion.taps, criterion.spacing) if criterion.taps > 1 else (0, 0)
+    return Comparison(
+        field="census",
+        shape=unsigned(criterion.bits),
+        rows=criterion.rows,
+        reach=taps // 2 * spacing,
+        pixel_maximum=criterion.bits,
+        differences=lambda: Hamming(criterion.bits, criterion.neutral),
+        taps=taps,
+        spacing=spacing,
+        like=criterion.like,
+        own_shift=RECIPROCAL_BITS - SUPPORT_SHIFT,  # a column alone counts as a mean of one
+    )
+
+
+def _gradient(criterion: Gradient, number: int) -> Comparison:
+    largest, cut = 2 * criterion.cap, criterion.truncation
+    shape = Shape.cast(range(-criterion.cap, criterion.cap + 1))
+    return Comparison(
+        field=f"gradient_{number}",
+        shape=shape,
+        rows=criterion.rows,
+        reach=criterion.columns // 2,
+        pixel_maximum=max(min(cut, largest), criterion.neutral),
+        differences=lambda: GradientDifference(shape, largest, cut, criterion.neutral),
+        cap=criterion.cap,
+    )
+
+
+COMPARISONS.register("census", _census)
+COMPARISONS.register("gradient", _gradient)
 
 
 @dataclass(frozen=True)
@@ -85,20 +117,8 @@ where lines are shorter."""
 
 def plan(config: Config) -> Plan:
     """The comparisons of a configuration whose criteria have no border band."""
-    criteria = cast("tuple[Census | Gradient, ...]", config.criteria)
-    below = max(c.rows // 2 for c in criteria)
-    found = []
-    for number, criterion in enumerate(criteria):
-        rows = criterion.rows // 2
-        if isinstance(criterion, Census):
-            taps, spacing = (criterion.taps, criterion.spacing) if criterion.taps > 1 else (0, 0)
-            reach, shape, field = taps // 2 * spacing, unsigned(criterion.bits), "census"
-        else:
-            taps = spacing = 0
-            reach, field = criterion.columns // 2, f"gradient_{number}"
-            shape = Shape.cast(range(-criterion.cap, criterion.cap + 1))
-        found.append(
-            Comparison(criterion, field, shape, below - rows, below + rows + 1, reach, taps, spacing)
-        )
+    stated = [COMPARISONS[c.kind](c, number) for number, c in enumerate(config.criteria)]
+    below = max(c.rows // 2 for c in stated)
+    found = tuple(replace(c, new=below - c.rows // 2, old=below + c.rows // 2 + 1) for c in stated)
     right = max(MINIMUM_RIGHT, *(c.reach for c in found))
-    return Plan(tuple(found), below, right, max(c.old for c in found))
+    return Plan(found, below, right, max(c.old for c in found))

@@ -225,7 +225,7 @@ class WholeCosts(wiring.Component):
         for c in self._plan.comparisons:
             if not c.taps:
                 continue
-            like = c.criterion.like << (self._config.pixel.bits - LIKE_BITS)  # type: ignore[union-attr]
+            like = c.like << (self._config.pixel.bits - LIKE_BITS)
             m.submodules.weights = weights = SupportWeights(
                 self._colour_bits, self._channels, c.taps, c.spacing, like
             )

@@ -10,7 +10,7 @@ from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
-from softdepth.spec.config import Config, Gradient
+from softdepth.spec.config import Config
 
 
 class Front(wiring.Component):
@@ -78,7 +78,7 @@ class Front(wiring.Component):
     def _wanted(self) -> Descriptors:
         """The descriptors that the criteria compare."""
         pixel, needs = self._config.pixel, plan(self._config)
-        caps = {c.field: c.criterion.cap for c in needs.comparisons if isinstance(c.criterion, Gradient)}
+        caps = {c.field: c.cap for c in needs.comparisons if c.cap is not None}
         return Descriptors(
             pixel.channels,
             pixel.bits,

@@ -42,9 +42,12 @@ def info(
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
     from softdepth.hdl.asked import asked
+    from softdepth.hdl.built import missing
     from softdepth.hdl.core import StereoCore
     from softdepth.hdl.signatures import pair_layout, result_layout
 
+    if gaps := missing(config):
+        return _facts_of_any(config) | {"gateware": f"none of {', '.join(gaps)}: models alone"}
     if config.whole_frame:
         return _facts_of_whole(config, clock, width, height)
     with asked():
@@ -87,6 +90,17 @@ def metric_facts(config: Config, geometry: "Geometry") -> dict[str, str]:
     }
 
 
+def _facts_of_any(config: Config) -> dict[str, str]:
+    """What is known of a configuration without asking its gateware."""
+    below = max(c.below for c in config.criteria) + config.post.below
+    return {
+        "candidates": f"{config.min_disparity} to {config.max_disparity}, {config.lanes} per clock",
+        "smallest frame": f"{config.min_width} x {config.min_height} pixels",
+        "disparity": f"{config.result_bits} bits, {config.post.fraction_bits} of them below a pixel",
+        "latency": f"{below} rows below a result's own are seen first",
+    }
+
+
 def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """The same of a core without a border band, whose stages hold their input back beyond a frame's edges."""
     from softdepth.hdl.asked import asked
@@ -97,10 +111,8 @@ def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> di
         whole = WholeLatency.of(config)
     cycles = whole.frame_clocks(width, height, config.steps)
     return {
-        "candidates": f"{config.disparities}, {config.lanes} per clock",
+        **_facts_of_any(config),
         "clocks per pixel": str(config.steps),
-        "smallest frame": f"{config.min_width} x {config.min_height} pixels",
-        "disparity": f"{config.result_bits} bits, {config.post.fraction_bits} of them below a pixel",
         "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
         "latency": f"{whole.clocks} clocks after column {whole.column} of the line {whole.rows} below",

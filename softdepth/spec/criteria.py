@@ -59,6 +59,16 @@ class AnyCriterion(Frozen):
         return 0
 
     @property
+    def below(self) -> int:
+        """Rows below the pixel that its value depends on."""
+        return self.reach_rows
+
+    @property
+    def products(self) -> int:
+        """Multiplications that a candidate's value takes."""
+        return 0
+
+    @property
     def rows_above(self) -> int:
         """Rows above its support's newest that are compared anew."""
         return 2 * self.reach_rows
@@ -195,6 +205,11 @@ class Census(AnyCriterion):
     def below(self) -> int:
         """Rows below the pixel that its value depends on."""
         return self.rows // 2 + self.window // 2
+
+    @property
+    def products(self) -> int:
+        """One by the reciprocal, with a support."""
+        return int(self.taps > 1)
 
     @property
     def beside(self) -> int:

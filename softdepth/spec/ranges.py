@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from softdepth.spec.criteria import Census
 from softdepth.spec.operators import REGISTRY, Range
 from softdepth.spec.rules import weight
 
@@ -32,7 +31,7 @@ def numbers(config: "Config") -> Range:
 def multipliers(config: "Config") -> int:
     """See `Config.multipliers`. A comparison of fractions takes two products; those wider than a
     multiplier take several."""
-    supports = sum(isinstance(c, Census) and c.taps > 1 for c in config.criteria)
+    supports = sum(c.products for c in config.criteria)
     if config.cost == "sum":
         return config.lanes * supports
 

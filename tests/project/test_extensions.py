@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from softdepth.cli.info import facts
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.costs.criteria import EVALUATE
 from softdepth.golden.costs.fuzzy.fixed_operators import FIXED
@@ -20,6 +21,7 @@ from softdepth.hdl.costs import lane
 from softdepth.hdl.costs.criteria.sad import SadCriteria
 from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS, OPERATORS
 from softdepth.sim.transfers import pack_frame
+from softdepth.sources import sources_hash
 from softdepth.spec import criteria, operators
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ConfigError
@@ -138,6 +140,16 @@ def test_a_kind_without_a_band_has_a_model_only(monkeypatch: pytest.MonkeyPatch)
     assert missing(core()) == ("criteria.1 of kind 'spot' beside one with a border band",)
     alone = {"cost": "sum", "criteria": [{"kind": "census"}, {"kind": "spot"}]}
     assert missing(core(**alone)) == ("criteria.1 of kind 'spot'",)
+    told = facts(core(**alone), 100.0, 64, 48)
+    assert told["gateware"] == "none of criteria.1 of kind 'spot': models alone"
+    assert told["latency"].startswith("7 rows below")
+    assert "gateware" not in facts(Config.preset("robust"), 100.0, 64, 48)
+
+
+def test_what_is_kept_depends_on_the_extensions(monkeypatch: pytest.MonkeyPatch) -> None:
+    with_toys = sources_hash("golden")
+    monkeypatch.setenv(VARIABLE, "")
+    assert sources_hash("golden") != with_toys
 
 
 def test_export_info_and_documents(softdepth, tmp_path) -> None:

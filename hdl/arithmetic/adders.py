@@ -52,7 +52,7 @@ def add_with_carry(pipeline: Pipeline, a: Word, b: Word, carry: Word, minimum: i
     bits = Shape.cast(range(minimum, maximum + 1)).width
     total = (Cat(carry.value, _extended(a.value, bits)) + Cat(carry.value, _extended(b.value, bits)))[1:]
     value = total[:bits].as_signed() if minimum < 0 else total[:bits]
-    return pipeline.result(value, minimum, maximum, a.time)
+    return pipeline.result(value, minimum, maximum, a.time, "sum")
 
 
 def magnitude(
@@ -86,7 +86,7 @@ def _chain(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:
         a.append(_extended(pipeline.at(field.a, time).value, field.bits - 1))
         b.append(_extended(pipeline.at(field.b, time).value, field.bits - 1))
     bits = len(Cat(a)) + 1
-    total = pipeline.result(Cat(a) + Cat(b), 0, 2**bits - 1, time)
+    total = pipeline.result(Cat(a) + Cat(b), 0, 2**bits - 1, time, "sums")
     results = []
     for field, start in zip(fields, starts, strict=True):
         maximum = field.a.maximum + field.b.maximum + (field.carry is not None)

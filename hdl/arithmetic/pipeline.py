@@ -45,11 +45,11 @@ class Pipeline:
         """A word that enters the pipeline at ``time``."""
         return Word(Value.cast(value), minimum, maximum, time)
 
-    def result(self, value: ValueLike, minimum: int, maximum: int, time: int) -> Word:
-        """The word ``value``, an operation on words of ``time``."""
+    def result(self, value: ValueLike, minimum: int, maximum: int, time: int, name: str = "result") -> Word:
+        """The word ``value``, an operation on words of ``time``; timing reports speak of it by ``name``."""
         if (time + 1) % self._levels == 0:
-            return Word(self._register(value, minimum, maximum), minimum, maximum, time + 1)
-        wire = Signal(_shape(minimum, maximum), name="wire")
+            return Word(self._register(value, minimum, maximum, name), minimum, maximum, time + 1)
+        wire = Signal(_shape(minimum, maximum), name=name)
         self._m.d.comb += wire.eq(value)
         return Word(wire, minimum, maximum, time + 1)
 
@@ -63,7 +63,8 @@ class Pipeline:
         for clock in range(word.time // self._levels, time // self._levels):
             key = (id(value), clock)
             if key not in self._delayed:
-                self._delayed[key] = (value, self._register(value, word.minimum, word.maximum))
+                late = self._register(value, word.minimum, word.maximum, _late(value))
+                self._delayed[key] = (value, late)
             value = self._delayed[key][1]
         return Word(value, word.minimum, word.maximum, time)
 
@@ -71,8 +72,8 @@ class Pipeline:
         """The clock in which ``word`` is there."""
         return word.time // self._levels
 
-    def _register(self, value: ValueLike, minimum: int, maximum: int) -> Value:
-        signal = Signal(_shape(minimum, maximum), name="word", reset_less=True)
+    def _register(self, value: ValueLike, minimum: int, maximum: int, name: str) -> Value:
+        signal = Signal(_shape(minimum, maximum), name=name, reset_less=True)
         self._m.d.sync += signal.eq(value)
         return signal
 
@@ -84,18 +85,20 @@ class Pipeline:
     def add(self, a: Word, b: Word) -> Word:
         """``a + b``."""
         a, b = self.aligned(a, b)
-        return self.result(a.value + b.value, a.minimum + b.minimum, a.maximum + b.maximum, a.time)
+        return self.result(a.value + b.value, a.minimum + b.minimum, a.maximum + b.maximum, a.time, "sum")
 
     def max(self, a: Word, b: Word) -> Word:
         """The larger of two words."""
         a, b = self.aligned(a, b)
         larger = Mux(a.value > b.value, a.value, b.value)
-        return self.result(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time)
+        return self.result(larger, max(a.minimum, b.minimum), max(a.maximum, b.maximum), a.time, "larger")
 
     def subtract(self, a: Word, b: Word) -> Word:
         """``a - b``."""
         a, b = self.aligned(a, b)
-        return self.result(a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time)
+        return self.result(
+            a.value - b.value, a.minimum - b.maximum, a.maximum - b.minimum, a.time, "difference"
+        )
 
     def multiply(self, a: Word, b: Word) -> Word:
         """``a * b`` of two words that are never negative, in two clocks from registers to a register.
@@ -106,7 +109,9 @@ class Pipeline:
         there = (clocks(max(a.time, b.time), self._levels) + 1) * self._levels
         a, b = self.at(a, there), self.at(b, there)
         highest = a.maximum * b.maximum
-        return Word(self._register(a.value * b.value, 0, highest), 0, highest, there + self._levels)
+        return Word(
+            self._register(a.value * b.value, 0, highest, "product"), 0, highest, there + self._levels
+        )
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""
@@ -116,6 +121,7 @@ class Pipeline:
             (word.minimum + half) >> bits,
             (word.maximum + half) >> bits,
             word.time,
+            "rounded",
         )
 
     def lookup(self, table: Sequence[int], word: Word) -> Word:
@@ -124,9 +130,10 @@ class Pipeline:
         entries = [Const(value, _shape(low, high)) for value in table]
         if len(table) > SMALL_TABLE:
             starts = [0, *(i for i in range(1, len(table)) if table[i] != table[i - 1])]
-            return self.result(_search(word.value, entries, starts), low, high, word.time)
+            return self.result(_search(word.value, entries, starts), low, high, word.time, "entry")
         beyond = word.value >= len(table) - 1
-        return self.result(Mux(beyond, entries[-1], Array(entries)[word.value]), low, high, word.time)
+        found = Mux(beyond, entries[-1], Array(entries)[word.value])
+        return self.result(found, low, high, word.time, "entry")
 
     def within(self, word: Word, minimum: int, maximum: int) -> Word:
         """``word``, known by other reasoning to stay within a narrower range: wires only."""
@@ -185,6 +192,14 @@ def _search(index: Value, entries: Sequence[Const], starts: Sequence[int]) -> Va
     half = len(starts) // 2
     upper, lower = (_search(index, entries, part) for part in (starts[half:], starts[:half]))
     return Mux(index >= starts[half], upper, lower)
+
+
+def _late(value: Value) -> str:
+    """The name of a value a clock later: of a signal, its own with the clocks since counted."""
+    if not isinstance(value, Signal):
+        return "late"
+    name, _, clocks = value.name.rpartition("_late_")
+    return f"{name}_late_{int(clocks) + 1}" if name else f"{value.name}_late_1"
 
 
 def _shape(minimum: int, maximum: int) -> Shape:

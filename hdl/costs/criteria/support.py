@@ -133,7 +133,7 @@ class SupportMean(wiring.Component):
             columns.insert(0, value)
         pipeline = Pipeline(m, levels=1)
         kept = [
-            pipeline.result(Mux(self.weights[k], column, 0), 0, self._maximum, 0)
+            pipeline.result(Mux(self.weights[k], column, 0), 0, self._maximum, 0, "counted")
             for k, column in enumerate(columns)
         ]
         product = pipeline.multiply(pipeline.sum(kept), pipeline.input(self.reciprocal, max(self.table)))

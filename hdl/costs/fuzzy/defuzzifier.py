@@ -69,7 +69,7 @@ class Defuzzifier(wiring.Component):
         den = pipeline.at(pipeline.sum(list(conclusions.values())), ready)
         if self._may_vanish:
             vanishes = den.value <= 0
-            num = pipeline.result(Mux(vanishes, 1, num.value), num.minimum, num.maximum, ready)
-            den = pipeline.result(Mux(vanishes, 0, den.value), 0, den.maximum, ready)
+            num = pipeline.result(Mux(vanishes, 1, num.value), num.minimum, num.maximum, ready, "num")
+            den = pipeline.result(Mux(vanishes, 0, den.value), 0, den.maximum, ready, "den")
         m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
         return m

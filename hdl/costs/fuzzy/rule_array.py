@@ -38,9 +38,9 @@ class RuleArray(wiring.Component):
             for k, rules in rule_base(config.rules).items()
         }
         widest = max(len(pairs) for by_label in self._needs.values() for pairs in by_label.values())
-        pairs = self._operator.pair_latency + tree_latency(widest)
+        pairs = self._operator.pair_operations + tree_latency(widest)
         most = max(len(by_label) for by_label in self._needs.values())
-        operations = pairs + self._operator.fire_latency + tree_latency(most)
+        operations = pairs + self._operator.fire_operations + tree_latency(most)
         self._start = start(operations)
         self._pairs_ready = self._start + pairs
         self._ready = self._start + operations

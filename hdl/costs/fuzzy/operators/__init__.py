@@ -26,9 +26,9 @@ class Operator(Protocol):
     Both halves are monotone in every operand, and their results lie within `Config.strength_range`.
     """
 
-    pair_latency: int
+    pair_operations: int
     """Operations in a row of `pair`."""
-    fire_latency: int
+    fire_operations: int
     """Operations in a row of `fire`."""
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:

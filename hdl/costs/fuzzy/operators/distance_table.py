@@ -51,4 +51,4 @@ class DistanceTable:
         entries = [Const(self._table[min(n, last)], Shape.cast(range(low, high + 1))) for n in magnitudes]
         index, far = pipeline.aligned(index, far)
         entry = Mux(far.value, self._table[-1], Array(entries)[index.value])
-        return pipeline.result(entry, low, high, index.time)
+        return pipeline.result(entry, low, high, index.time, "entry")

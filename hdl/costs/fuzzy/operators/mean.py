@@ -7,8 +7,8 @@ from softdepth.spec.config import Config
 class Mean:
     """Theta as the mean of the three memberships, times three: the third cancels in the ratio N/S."""
 
-    pair_latency = 1
-    fire_latency = 1
+    pair_operations = 1
+    fire_operations = 1
 
     def __init__(self, config: Config) -> None:
         """Nothing to configure."""

@@ -13,8 +13,8 @@ class SoftMin1:
     The table is monotone and grows by at most 1, so that Theta is monotone as the rule array needs.
     """
 
-    pair_latency = 4
-    fire_latency = 4
+    pair_operations = 4
+    fire_operations = 4
 
     def __init__(self, config: Config) -> None:
         self._table = soft_min_1_table(config.one, config.softness)

@@ -15,8 +15,8 @@ class SoftMin2:
     the fixed model).
     """
 
-    pair_latency = 4
-    fire_latency = 4
+    pair_operations = 4
+    fire_operations = 4
 
     def __init__(self, config: Config) -> None:
         self._soft_maximum = config.sharpness < 0

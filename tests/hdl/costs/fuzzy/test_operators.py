@@ -39,7 +39,7 @@ class Theta(wiring.Component):
     def __init__(self, c: Config) -> None:
         self.config = c
         self.unit = OPERATORS[c.operator](c)
-        self.operations = self.unit.pair_latency + self.unit.fire_latency
+        self.operations = self.unit.pair_operations + self.unit.fire_operations
         self.latency = clocks(self.operations)
         degree = In(range(c.one + 1))
         low, high = c.strength_range
@@ -51,7 +51,7 @@ class Theta(wiring.Component):
         begin = start(self.operations)
         a, b, c = (p.input(x, self.config.one, time=begin) for x in (self.a, self.b, self.c))
         pair = self.unit.pair(p, b, c)
-        assert pair.time == begin + self.unit.pair_latency
+        assert pair.time == begin + self.unit.pair_operations
         strength = self.unit.fire(p, a, pair)
         assert strength.time == begin + self.operations
         assert p.clock(strength) == self.latency

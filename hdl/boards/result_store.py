@@ -51,7 +51,8 @@ class ResultStore(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         layout = result_layout(self._config)
-        word = layout["disparity"].width + layout["code"].width
+        kept = [name for name in ("disparity", "code", "confidence") if name in layout.members]
+        word = sum(layout[name].width for name in kept)
         m.submodules.memory = memory = Memory(shape=word, depth=SLOTS * self._depth, init=[])
         write, read = memory.write_port(), memory.read_port()
         filled = Signal(range(SLOTS))  # slot that is being filled
@@ -66,7 +67,7 @@ class ResultStore(wiring.Component):
             self.i.ready.eq(free != 0),
             write.en.eq(taken),
             write.addr.eq(self._base(filled) + x),
-            write.data.eq(Cat(result.disparity, result.code)),
+            write.data.eq(Cat(result[name] for name in kept)),
             self.ready.eq(complete != 0),
         ]
         line_done = taken & last
@@ -85,10 +86,10 @@ class ResultStore(wiring.Component):
         ]
 
         bytes_ = result_bytes(self._config)
-        place = self.index if bytes_ == 1 else self.index[(bytes_ - 1).bit_length() :]
+        within = (bytes_ - 1).bit_length()  # bits that name a byte of a result
         m.d.comb += [
-            read.addr.eq(self._base(self.read_slot) + place),
-            self.data.eq(read.data if bytes_ == 1 else read.data.word_select(self.index[0], 8)),
+            read.addr.eq(self._base(self.read_slot) + self.index[within:]),
+            self.data.eq(read.data.word_select(self.index[:within], 8)),
         ]
         return m
 

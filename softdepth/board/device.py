@@ -72,7 +72,7 @@ class Device:
         check_pair(left, right, config.pixel)
         reference, other = to_core_view(left, right, config)
         height, width, _ = reference.shape
-        words = np.zeros((height, width), np.uint16)
+        words = np.zeros((height, width), np.uint32)
         for row, line in enumerate(self._lines(reference, other)):
             number, words[row] = _unpack(line, width, config)
             if number != row:
@@ -84,12 +84,14 @@ class Device:
         damage = self.counters().core
         if any(damage):
             raise ToolError(f"the core on the board counts broken frames: {damage}", "repeat the command")
-        codes = (words >> config.result_bits).astype(np.uint8)
-        disparities = words & np.uint16((1 << config.result_bits) - 1)
+        disparities = (words & ((1 << config.result_bits) - 1)).astype(np.uint16)
+        above = words >> config.result_bits
+        codes = (above & ((1 << config.code_bits) - 1)).astype(np.uint8)
+        confidence = (above >> config.code_bits).astype(np.uint8) if config.post.confidence else None
         if config.signed:
             sign = 1 << config.result_bits - 1
             disparities = ((disparities.astype(np.int32) ^ sign) - sign).astype(np.int16)
-        found = DisparityMap(disparities, codes)
+        found = DisparityMap(disparities, codes, config.post.fraction_bits, confidence)
         return from_core_view(found, config)
 
     def counters(self) -> Counters:
@@ -136,8 +138,7 @@ def _unpack(line: bytes, width: int, config: Config) -> "tuple[int, np.ndarray]"
     size = result_bytes(config)
     if len(line) != ROW.size + width * size:
         raise ToolError(f"a line of results has {len(line)} bytes for {width} pixels", REBUILD)
-    dtype = np.dtype(np.uint8) if size == 1 else np.dtype("<u2")
-    return ROW.unpack_from(line)[0], np.frombuffer(line, dtype, offset=ROW.size).astype(np.uint16)
+    return ROW.unpack_from(line)[0], np.frombuffer(line, f"<u{size}", offset=ROW.size).astype(np.uint32)
 
 
 def _parse(text: bytes) -> Description:

@@ -17,7 +17,7 @@ import zlib
 from enum import IntEnum
 from typing import Any, NamedTuple
 
-from softdepth.spec.config import Config, PixelFormat
+from softdepth.spec.config import CONFIDENCE_BITS, Config, PixelFormat
 from softdepth.spec.errors import ConfigError
 
 VERSION = 1
@@ -36,7 +36,6 @@ WINDOW = 2
 REPLY = 0x80
 SIZE = struct.Struct("<HH")
 ROW = struct.Struct("<H")
-CODE_BITS = 2
 
 
 class Type(IntEnum):
@@ -155,8 +154,13 @@ def check_lines(config: Config) -> None:
 
 
 def result_bytes(config: Config) -> int:
-    """Bytes of a result on the wire, little endian: the disparity, and its code above it."""
-    return -(-(config.result_bits + config.code_bits) // 8)
+    """Bytes of a result on the wire, little endian: disparity, code above it, confidence above both.
+
+    They are a power of two: a byte's place tells its result by its upper bits.
+    """
+    confidence = CONFIDENCE_BITS if config.post.confidence else 0
+    needed = -(-(config.result_bits + config.code_bits + confidence) // 8)
+    return 1 << (needed - 1).bit_length()
 
 
 def describe(config: Config, board: str, revision: str) -> bytes:
@@ -165,10 +169,13 @@ def describe(config: Config, board: str, revision: str) -> bytes:
     It holds what the configuration changes in the defaults; the hash tells whether both ends have the
     same defaults.
     """
+    changed = config.model_dump(mode="json", exclude_defaults=True)
+    for said_of, criterion in zip(changed.get("criteria", ()), config.criteria, strict=False):
+        said_of["kind"] = criterion.kind  # each kind's own default, but not theirs together
     said: dict[str, Any] = {
         "board": board,
         "revision": revision,
         "hash": config.hash,
-        "config": config.model_dump(mode="json", exclude_defaults=True),
+        "config": changed,
     }
     return json.dumps(said, separators=(",", ":")).encode()

@@ -150,7 +150,8 @@ class FakeBoard:
     def _line(self) -> bytes:
         """The next line of results, if the pixels of its support are there."""
         width, height = self.size
-        behind = 0 if len(self.lines) == height else self.config.reach_rows
+        below = height if self.config.whole_frame else self.config.reach_rows
+        behind = 0 if len(self.lines) == height else below
         if self.given + behind >= len(self.lines) or self.misdeeds.never_ready:
             return b""
         row = self.given
@@ -161,7 +162,10 @@ class FakeBoard:
         left, right = to_core_view(pixels[..., :3], pixels[..., 3:], self.config)
         found = fixed_model.disparity(left, right, self.config)
         found = found.mirrored() if self.config.reference == "right" else found
-        words = found.disparity[row] | found.code[row].astype(np.uint16) << self.config.disparity_bits
+        config = self.config
+        words = found.disparity[row] | found.code[row].astype(np.uint32) << config.result_bits
+        if found.confidence is not None:
+            words |= found.confidence[row].astype(np.uint32) << (config.result_bits + config.code_bits)
         number = row ^ 1 if self.misdeeds.swap_rows else row
         return ROW.pack(number) + words.astype(f"<u{result_bytes(self.config)}").tobytes()
 

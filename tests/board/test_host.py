@@ -58,6 +58,14 @@ def test_the_map_is_the_models(config, changes):
     assert len(board.lines) == 9
 
 
+@pytest.mark.parametrize("changes", [[], ["post.confidence=false"]])
+def test_fractions_codes_and_confidence_are_the_models(changes):
+    """`compute` compares all of them."""
+    keys = ("disparities=8", "lanes=2", "max_width=64", *changes)
+    with plugged_in(Config.preset("robust-small").override(keys)) as board:
+        compute(board, timeout=5)
+
+
 def test_lost_and_garbled_replies_are_asked_for_again(config):
     numbers = frozenset({0, 1, 4, 5, 9, 14, 15, 16})
     with plugged_in(config, Misdeeds(lose_replies=numbers)) as board:

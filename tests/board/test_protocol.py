@@ -6,8 +6,9 @@ import zlib
 import numpy as np
 import pytest
 
-from softdepth.spec.config import Config
+from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.presets import PRESETS
 from softdepth.spec.protocol import (
     ESCAPE,
     FLAG,
@@ -71,8 +72,15 @@ def test_results_take_whole_bytes(disparities, size):
     assert result_bytes(Config.from_dict({"disparities": disparities, "lanes": 1})) == size
 
 
-def test_a_board_describes_its_configuration():
-    config = Config.preset("lite").override(["lanes=4", "reference=right"])
+def test_a_result_with_a_confidence_takes_four_bytes():
+    config = Config.preset("robust")
+    assert 16 < config.result_bits + config.code_bits + CONFIDENCE_BITS <= 24
+    assert result_bytes(config) == 4
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_board_describes_its_configuration(preset):
+    config = Config.preset(preset).override(["lanes=4"])
     said = json.loads(describe(config, "ulx3s-12f", "0.1.0"))
     assert (said["board"], said["revision"], said["hash"]) == ("ulx3s-12f", "0.1.0", config.hash)
     assert Config.from_dict(said["config"]) == config

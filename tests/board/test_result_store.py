@@ -7,6 +7,7 @@ from amaranth.hdl import Signal
 from amaranth.sim import SimulatorContext
 
 from softdepth.hdl.boards.result_store import SLOTS, ResultStore
+from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.protocol import result_bytes
 from tests.support.simulation import config, simulate
 
@@ -65,7 +66,10 @@ class Bench:
 
 
 def run(disparities: int, script: Any) -> None:
-    core = config(max_width=WIDTH + 2, disparities=disparities, lanes=1)
+    run_core(config(max_width=WIDTH + 2, disparities=disparities, lanes=1), script)
+
+
+def run_core(core: Config, script: Any) -> None:
     dut = ResultStore(core)
 
     async def bench(ctx: SimulatorContext, rst: Signal) -> None:
@@ -120,3 +124,18 @@ def test_a_line_that_does_not_end_is_told():
         assert ctx.get(dut.fault)
 
     run(8, script)
+
+
+def test_a_confidence_stands_above_the_code():
+    core = Config.preset("robust").override([f"max_width={WIDTH + 2}", "disparities=8", "lanes=1"])
+    surest = (1 << CONFIDENCE_BITS) - 1
+
+    async def script(bench: Bench, dut: ResultStore, ctx: SimulatorContext, bits: int) -> None:
+        await bench.offer(0, disparity=100, code=5, confidence=surest)
+        await bench.offer(1)
+        words = await bench.read(await bench.claim())
+        above = core.result_bits + core.code_bits
+        assert words[WIDTH // 2] == 100 | 5 << core.result_bits | surest << above
+        assert [word >> above for word in words].count(0) == WIDTH - 1
+
+    run_core(core, script)

@@ -53,6 +53,13 @@ def test_a_clean_line(config, compute, tmp_path):
     assert board.record["led"] & (ALIVE | LOCKED | BUSY | ERROR) == ALIVE | LOCKED
 
 
+def test_a_core_without_a_border_band(compute, tmp_path):
+    """Fractions, six codes and confidence, and results that come long after the last pixel."""
+    keys = ("disparities=8", "lanes=4", "max_width=64", "max_height=64", "post.masked_median=0")
+    with plugged_in(Config.preset("robust-small").override(keys), tmp_path) as board:
+        compute(board, tmp_path / "out", timeout=30)
+
+
 def test_a_sequence(config, softdepth, files, tmp_path):
     for side, path in (("left", files.left), ("right", files.right)):
         (tmp_path / side).mkdir()

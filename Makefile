@@ -32,7 +32,7 @@ test: $(READY) ## the whole test suite (a part of it: make test TESTS=tests/gold
 	@$(BIN)/pytest -n auto --dist worksteal $(TESTS)
 
 test-fast: $(READY) ## the tests that take seconds
-	@$(BIN)/pytest -n auto --dist worksteal -m "not slow" $(TESTS)
+	@$(BIN)/pytest -n auto --dist worksteal -m "not slow and not full" $(TESTS)
 
 test-full: $(READY) ## what is too long for every day: whole Middlebury frames with every operator
 	@$(BIN)/pytest -n auto --dist worksteal -m full $(TESTS)

@@ -122,7 +122,7 @@ def test_what_is_there_is_kept_and_what_has_changed_is_not(softdepth, scene, tmp
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGTERM, pytest.param(signal.SIGKILL, marks=pytest.mark.full)])
 def test_a_killed_run_leaves_whole_frames_and_goes_on(softdepth, tmp_path, number):
     for name in ("left", "right"):
         (tmp_path / name).mkdir()

@@ -1,4 +1,4 @@
-"""Whole real frames with the criteria of preset `paper`, every pixel."""
+"""Real frames with the criteria of preset `paper`, every pixel."""
 
 from pathlib import Path
 
@@ -8,11 +8,15 @@ from softdepth.golden.data.datasets import load
 from softdepth.spec.config import OPERATORS, Config, Operator
 from tests.cocotb.conftest import Exact
 
+ROWS = slice(130, 400)
+"""Of Motorcycle: near and far parts."""
+
 
 @pytest.mark.slow
 def test_motorcycle(exact: Exact) -> None:
+    """Whole lines of it, and more of them than 8 bits count."""
     pair = load("motorcycle")
-    result = exact(Config.preset("paper"), [(pair.left, pair.right)])
+    result = exact(Config.preset("paper"), [(pair.left[ROWS], pair.right[ROWS])])
     assert result.cycles_per_pixel == pytest.approx(Config.preset("paper").steps, rel=1e-4)
 
 

@@ -134,19 +134,23 @@ def test_latencies_are_as_stated(preset: str, disparities: int, lanes: int, tmp_
 
 WHOLE = ["max_width=16", "max_height=32", "disparities=4", "lanes=2"]
 LESS = ["post.check=false", "post.median=0", "post.masked_median=0", "post.fill=false"]
+FULL = [pytest.mark.full, pytest.mark.slow]
 
 
 @pytest.mark.parametrize(
     ("preset", "changes"),
     [
         ("robust-small", []),
-        ("robust-small", LESS),
-        ("robust", ["post.masked_median=0", "pixel=gray8"]),
-        ("robust-small", [*LESS[2:], "lanes=1", "post.fraction_bits=0"]),
+        pytest.param("robust-small", LESS, marks=FULL),
+        pytest.param("robust", ["post.masked_median=0", "pixel=gray8"], marks=FULL),
+        pytest.param("robust-small", [*LESS[2:], "lanes=1", "post.fraction_bits=0"], marks=FULL),
     ],
 )
 def test_latencies_without_a_border_band(preset: str, changes: list[str], tmp_path: Path) -> None:
-    """A line's last result, from the pixel that the head names, where pixels come slowly."""
+    """A line's last result, from the pixel that the head names, where pixels come slowly.
+
+    The first core has every stage; the others leave out those that change what a stage waits for.
+    """
     config = Config.preset(preset).override([*WHOLE, *changes])
     core = export_core(config)
     needs = json.loads(core.json)["needs"]

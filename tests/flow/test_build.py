@@ -80,10 +80,12 @@ FORMS = {
     "icebreaker": Form(ICE40, "ICESTORM_RAM", "SB_RAM40_4K", 20, ("nextpnr-ice40", "icepack"), ()),
     "tangnano20k": Form(GOWIN, "RAM16SDP4", "RAM16SDP4", 20, ("nextpnr-himbaechel", "gowin_pack")),
 }
+BUILT = ("ulx3s-12f", "icebreaker", pytest.param("tangnano20k", marks=pytest.mark.full))
+"""Place and route takes minutes for Gowin's parts, whatever the core."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("board", FORMS)
+@pytest.mark.parametrize("board", BUILT)
 def test_a_core_becomes_a_bitstream(board, tmp_path, capfd):
     """Synthesis, place and route and packing, with the real tools, for a board of each family.
 

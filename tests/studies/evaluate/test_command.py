@@ -122,7 +122,8 @@ def test_scored_maps_of_the_gateware_are_the_models(tmp_path):
     """``--engine rtl`` scores simulated maps, and says for each scene in how many pixels they differ."""
     write_scene(tmp_path / "scenes" / "tiny", width=40, height=16)
     for engine in ("rtl", "fixed"):
-        arguments = ["--preset", "sad", "--set", "disparities=16", "--processes", "1", "--engine", engine]
+        core = ["--preset", "sad", "--set", "disparities=8", "--set", "lanes=2"]
+        arguments = [*core, "--processes", "1", "--engine", engine]
         output = tmp_path / engine
         assert main(["evaluate", "--scenes", str(tmp_path / "scenes"), *arguments, "-o", str(output)]) == 0
     simulated, model = (

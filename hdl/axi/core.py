@@ -12,12 +12,12 @@ from softdepth.hdl.axi.tdata import extended, outcome_layout, pair_bits, pixel_o
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.signatures import Faults, Status, settings_layout
+from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
-from softdepth.spec.edge import Edge
 from softdepth.spec.registers import UNSURE, registers
 from softdepth.spec.validity import Validity
 
-BUSES = {"axi-lite": ("s_axil", axi_lite, AxiLite), "wishbone": ("wb", wishbone, Wishbone)}
+BUSES: dict[Bus, tuple] = {"axi-lite": ("s_axil", axi_lite, AxiLite), "wishbone": ("wb", wishbone, Wishbone)}
 """Prefix of the ports, the ports, and the component, of each bus of the registers."""
 
 FLAGS = {
@@ -47,20 +47,19 @@ class AxiCore(wiring.Component):
     irq : a flag is raised whose interrupt is on; a level.
     """
 
-    def __init__(self, config: Config, edge: Edge | None = None) -> None:
+    def __init__(self, config: Config, bus: Bus = "axi-lite") -> None:
         self._config = config
-        self._edge = edge or Edge()
+        self._bus: Bus = bus
         self._core = StereoCore(config, settings=True)
         self._registers = registers(config)
-        prefix, ports, _ = BUSES[self._edge.bus]
-        bus = ports(word_bits(self._registers))
+        prefix, ports, _ = BUSES[bus]
         super().__init__(
             {
                 "aclk": In(1),
                 "aresetn": In(1),
                 **_stream("s_axis", pair_bits(config.pixel), In),
                 **_stream("m_axis", outcome_layout(config).size, Out),
-                **{f"{prefix}_{name}": member for name, member in bus.items()},
+                **{f"{prefix}_{name}": member for name, member in ports(word_bits(self._registers)).items()},
                 "irq": Out(1),
             }
         )
@@ -73,7 +72,7 @@ class AxiCore(wiring.Component):
         m.submodules.markers = markers = Markers()
         m.submodules.frames = frames = Frames(self._most_frames)
         m.submodules.bank = bank = RegisterBank(self._registers)
-        prefix, _, adapter = BUSES[self._edge.bus]
+        prefix, _, adapter = BUSES[self._bus]
         m.submodules.bus = bus = adapter(word_bits(self._registers))
         wiring.connect(m, bus.bus, bank.bus)
         for name, member in bus.signature.members.items():

@@ -18,11 +18,6 @@ def whole_bytes(bits: int) -> int:
     return -(-bits // BYTE) * BYTE
 
 
-def view_bits(pixel: PixelFormat) -> int:
-    """Bits of ``tdata`` with one view's pixel."""
-    return whole_bytes(pixel.size)
-
-
 def pair_bits(pixel: PixelFormat) -> int:
     """Bits of ``tdata`` with both: the left one lowest, the right one next to it, 0 above."""
     return whole_bytes(2 * pixel.size)

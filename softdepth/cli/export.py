@@ -8,8 +8,8 @@ import typer
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.cli.bundle import bundled
+from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
-from softdepth.spec.edge import Bus, Edge
 from softdepth.spec.errors import InputError
 
 DESCRIPTION = ".json"
@@ -37,9 +37,7 @@ def export(
         Literal["axi"] | None,
         typer.Option("--ip", help="A package with AXI4-Stream Video and registers: docs/axi.md."),
     ] = None,
-    bus: Annotated[
-        Literal["axi-lite", "wishbone"] | None, typer.Option("--bus", help="Of the registers, with --ip.")
-    ] = None,
+    bus: Annotated[Bus | None, typer.Option("--bus", help="Of the registers, with --ip.")] = None,
 ) -> None:
     """Write the core as one self-contained Verilog file, or as a package for a design with AXI streams."""
     chosen = choice.configuration()
@@ -81,6 +79,6 @@ def _package(config: Config, name: str, output: Path, bus: Bus) -> None:
         raise InputError("--ip writes a folder, and '-' is standard output", "name a folder with -o")
     check_export(config, name)
     with result_folder(output, last=f"{name}.core") as folder:
-        for file, text in axi_package(config, name, Edge(bus=bus)).items():
+        for file, text in axi_package(config, name, bus).items():
             (folder / file).write_text(text.rstrip("\n") + "\n")
     screen.note(f"{output}: module {name} with AXI streams, configuration {config.name} ({config.hash})")

@@ -10,8 +10,8 @@ from peakrdl_markdown import MarkdownExporter
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
+from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
-from softdepth.spec.edge import Edge
 from softdepth.spec.registers import SOURCE, address_map, definitions
 from softdepth.templates import render
 
@@ -20,18 +20,18 @@ HEADER = "registers.h"
 PAGE = "registers.md"
 
 
-def axi_package(config: Config, name: str, edge: Edge) -> dict[str, str]:
+def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
     """The files of the package by their names.
 
     Verilog; the registers in SystemRDL, as a C header and as a page; instantiations in Verilog and VHDL; and
     a FuseSoC core, whose target ``lint`` has Verilator read it.
     """
-    core = AxiCore(config, edge)
+    core = AxiCore(config, bus)
     ports = [
         {"name": port.name, "direction": port.flow.name.lower(), "width": len(port.value)}  # type: ignore[arg-type]
         for port in ports_of(core)
     ]
-    defined = definitions(config, separate=edge.separate)
+    defined = definitions(config)
     values = {
         "name": name,
         "config": config,

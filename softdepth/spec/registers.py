@@ -56,8 +56,8 @@ class Register:
     fields: tuple[RegisterField, ...]
 
 
-def definitions(config: Config, *, separate: bool = False) -> dict[str, str]:
-    """What ``registers.rdl`` is told of a configuration; `separate` views have a synchroniser."""
+def definitions(config: Config) -> dict[str, str]:
+    """What ``registers.rdl`` is told of a configuration."""
     post = config.post
     major, minor, patch = (int(part) for part in version("softdepth").split(".")[:3])
     number = int(config.hash, 16)
@@ -76,7 +76,6 @@ def definitions(config: Config, *, separate: bool = False) -> dict[str, str]:
         "HAS_CONFIDENCE": int(post.confidence),
     }
     optional = {
-        "SEPARATE": separate,
         "CONFIDENCE": post.confidence,
         "TOLERANCE": post.tolerance if post.check else None,
         "ISLAND": post.island or None,
@@ -94,9 +93,9 @@ def address_map(defined: Mapping[str, str]) -> AddrmapNode:
     return compiler.elaborate().top
 
 
-def registers(config: Config, *, separate: bool = False) -> tuple[Register, ...]:
+def registers(config: Config) -> tuple[Register, ...]:
     """The registers of a configuration's core, in the order of their addresses."""
-    nodes = address_map(definitions(config, separate=separate)).registers()
+    nodes = address_map(definitions(config)).registers()
     return tuple(_register(node) for node in nodes)
 
 

@@ -12,7 +12,6 @@ from softdepth.cli.app import main
 from softdepth.export.axi_package import axi_package
 from softdepth.sim.toolchain import find_toolchain
 from softdepth.spec.config import Config
-from softdepth.spec.edge import Edge
 from softdepth.spec.registers import registers
 
 SMALL = Config.preset("sad").override(["max_width=64", "max_height=48", "disparities=8", "lanes=4"])
@@ -93,6 +92,6 @@ def test_the_templates_have_every_port(package: Path) -> None:
 
 
 def test_wishbone_in_place_of_axi_lite() -> None:
-    text = axi_package(SMALL, "depth", Edge(bus="wishbone"))["depth_instance.v"]
+    text = axi_package(SMALL, "depth", "wishbone")["depth_instance.v"]
     assert ".wb_ack(wb_ack)" in text
     assert "s_axil" not in text

@@ -1,7 +1,10 @@
 """Gateware with faults put into its text: what a bench must catch."""
 
+import inspect
+import sys
 from importlib import resources
 from types import ModuleType
+from typing import Any
 
 FRAME_GUARD, HEIGHT_LEARNER = "frame_guard", "height_learner"
 GUARD_FILES = (HEIGHT_LEARNER, FRAME_GUARD)
@@ -19,3 +22,12 @@ def mutated_guard(file: str, old: str, new: str) -> type:
         exec(compile(text, name, "exec"), module.__dict__)
     modules[FRAME_GUARD].__dict__["HeightLearner"] = modules[HEIGHT_LEARNER].__dict__["HeightLearner"]
     return modules[FRAME_GUARD].__dict__["FrameGuard"]
+
+
+def mutated(block: type, old: str, new: str) -> Any:
+    """`block` of its module's text with ``new`` in place of ``old``, which is there once."""
+    text = inspect.getsource(sys.modules[block.__module__])
+    assert text.count(old) == 1, f"'{old}' is no longer in {block.__module__}, or more than once"
+    module = ModuleType(f"mutated_{block.__name__}")
+    exec(compile(text.replace(old, new), module.__name__, "exec"), module.__dict__)
+    return getattr(module, block.__name__)

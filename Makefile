@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full soak bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading readme clean distclean preflight
+.PHONY: help demo test test-fast test-full soak bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading registers readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -117,6 +117,9 @@ utilization: $(READY) ## measure area and speed: docs/utilization.md
 
 reading: $(READY) ## exported cores read by yosys: the table in docs/flow.md
 	@$(BIN)/python -m softdepth.studies.reading
+
+registers: $(READY) ## the registers of the core with AXI streams: docs/axi.md
+	@$(BIN)/python -m softdepth.studies.registers_page
 
 readme: demo ## renew the figures and the picture in README.md from the demo's results
 	@$(BIN)/python -m softdepth.studies.readme $(DEMO)

@@ -1,6 +1,6 @@
 """Proofs by yosys' own solver: streams keep their contract, whatever comes and whenever it is taken.
 
-A property holds of every run (induction), or of every run of up to `CLOCKS` clocks from reset on; each is
+A property holds of every run (induction), or of every run of some clocks from reset on; each is
 shown to fail on a block with a fault.
 """
 
@@ -12,37 +12,14 @@ from amaranth.hdl import Assert, Module, Signal, Value
 from amaranth.lib import data, stream
 from amaranth.lib.wiring import Component, In
 
-from softdepth.flow.tools import find_tool
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import ResultQueue
-from softdepth.hdl.text.rtlil import to_rtlil
-from softdepth.spec.errors import ToolError
+from tests.support.proofs import proof
 
-CLOCKS = 14
 BITS = 2
 LATENCY = 1
 Fault = Literal["none", "waits for ready", "withdraws", "changes"]
 FAULTS: tuple[Fault, ...] = ("waits for ready", "withdraws", "changes")
-Proof = Literal["every run", "runs of some clocks", "refuted"]
-
-
-def proof(dut: Component, folder: Path) -> Proof:
-    """What is known of the assertions in `dut`, whose inputs are free but for its reset."""
-    (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
-    script = (
-        "read_rtlil dut.il; hierarchy -top dut; proc; flatten; memory_map; async2sync; dffunmap;"
-        " chformal -lower; setundef -undriven -zero; opt_clean; setundef -init -zero;"
-        f" sat -set rst 0 -prove-asserts -set-assumes -tempinduct -maxsteps {CLOCKS} -verify dut"
-    )
-    try:
-        find_tool("yosys").run(["-q", "-l", "log", "-p", script], folder, log="log")
-    except ToolError:
-        said = (folder / "log").read_text()
-        if "model found for base case: FAIL" in said:
-            return "refuted"
-        assert "Reached maximum number of time steps" in said, said[-500:]
-        return "runs of some clocks"
-    return "every run"
 
 
 class Watched(Component):

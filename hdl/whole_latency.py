@@ -10,25 +10,23 @@ from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.census import CENSUS_REACH
 from softdepth.hdl.front.census import Census as CensusBlock
 from softdepth.hdl.front.descriptors import GRADIENT_REACH
+from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.gradient import Gradient as GradientBlock
 from softdepth.hdl.front.tall_window import TallWindow
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.confidence import Confidence
+from softdepth.hdl.post.fill import Fill
+from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.left_right import LeftRight
 from softdepth.hdl.post.sixteenths import Sixteenths
-from softdepth.hdl.post.stages import masked_medians_of
+from softdepth.hdl.post.stages import masked_medians_of, median_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.shapes import cost_bits
 from softdepth.spec.config import Config
 from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
-
-FRAME_ENDS_LATENCY = 1
-FILL_LATENCY = 4
-"""Of a measurement; what has none waits for the next, or the line's end."""
-ISLAND_LATENCY = 2
 
 
 @dataclass(frozen=True)
@@ -87,7 +85,7 @@ def _up_to_winners(config: Config, ahead: int, *, gradient: bool) -> int:
     cost, whole = unsigned(cost_bits(costs.maximum)), unsigned(0)
     tree = ArgminTree(cost, whole, config.lanes)
     sequence = ArgminSequence(candidate_layout(cost, whole, config.disparities), steps)
-    front = Front.latency + FRAME_ENDS_LATENCY
+    front = Front.latency + FrameEnds.latency
     described = (
         TallWindow.latency + (GradientBlock.latency if gradient else CensusBlock.latency) + QUEUE_LATENCY
     )
@@ -101,18 +99,17 @@ def _up_to_winners(config: Config, ahead: int, *, gradient: bool) -> int:
 def _behind(config: Config) -> int:
     """Of the stages behind the winners: a window's last columns are its last one repeated."""
     post = config.post
-    median = 1 + 2 * config.result_bits
 
     def window(columns: int, latency: int) -> int:
         return columns + Window.latency + latency + QUEUE_LATENCY
 
     clocks = 0
     if post.island:
-        clocks += window(ISLAND_REACH, ISLAND_LATENCY)
+        clocks += window(ISLAND_REACH, Island.latency)
     if post.fill:
-        clocks += FILL_LATENCY
+        clocks += Fill.latency
     if post.median:
-        clocks += window(MEDIAN_REACH, median)
+        clocks += window(MEDIAN_REACH, median_of(config).latency)
     if post.masked_median:
         stage = masked_medians_of(config)
         clocks += stage.latency + QUEUE_LATENCY

@@ -18,8 +18,10 @@ class FrameEnds(wiring.Component):
     Members
     -------
     i : items of well-formed frames.
-    o : `raster_layout` of both views' pixels, left lowest.
+    o : `raster_layout` of both views' pixels, left lowest, `latency` clocks later where nothing waits.
     """
+
+    latency = 1
 
     def __init__(self, config: Config) -> None:
         self._item = item_layout(config)

@@ -23,6 +23,9 @@ class Fill(wiring.Component):
     i, o : results, `post_layout`.
     """
 
+    latency = 4
+    """Of a measurement; what has none waits for the next, or the line's end."""
+
     def __init__(self, value_bits: int, colour_bits: int, max_width: int) -> None:
         self._layout = post_layout(value_bits, colour_bits)
         self._value_bits = value_bits

@@ -25,6 +25,9 @@ class Island(wiring.Component):
     least : as the parameter, which is its value where it is not driven. It may change between frames.
     """
 
+    latency = 2
+    """From the window to its result in `window_stage`."""
+
     def __init__(self, value_bits: int, colour_bits: int, max_width: int, least: int) -> None:
         self._layout = post_layout(value_bits, colour_bits)
         self._max_width = max_width
@@ -44,8 +47,7 @@ class Island(wiring.Component):
         count = Signal(range(len(found) + 1), reset_less=True)
         island = Signal(reset_less=True)
         m.d.sync += [count.eq(popcount(m, found)), island.eq(count < self.least)]
-        latency = 2
-        result = data.View(layout, delayed(m, Value.cast(window.companion), latency, "result"))
+        result = data.View(layout, delayed(m, Value.cast(window.companion), self.latency, "result"))
         falls = is_measured(result.code) & island
         payload = self.i.payload
         window_stage(
@@ -53,7 +55,7 @@ class Island(wiring.Component):
             self.i,
             self.o,
             window,
-            latency,
+            self.latency,
             element=is_measured(payload.code),
             companion=Value.cast(payload)[: layout.size],
             results={

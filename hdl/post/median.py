@@ -39,6 +39,10 @@ class Median(wiring.Component):
         self._layout = post_layout(value_bits, colour_bits)
         self._value_bits, self._max_width = value_bits, max_width
         self._rows, self._columns, self._holes = rows, columns, holes
+        samples = (2 * rows + 1) * (2 * columns + 1)
+        self._median = LowerMedian(samples, value_bits, all_kept=not holes)
+        self.latency = 1 + self._median.latency
+        """From the window to its result in `window_stage`."""
         super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
 
     def elaborate(self, platform: object) -> Module:
@@ -56,14 +60,14 @@ class Median(wiring.Component):
         # A clock says which samples are kept.
         values = [Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(len(samples))]
         m.d.sync += [v.eq(s.value) for v, s in zip(values, samples, strict=True)]
-        m.submodules.median = median = LowerMedian(len(samples), self._value_bits, all_kept=not self._holes)
+        m.submodules.median = median = self._median
         m.d.comb += [median.i[k].eq(value) for k, value in enumerate(values)]
         if self._holes:
             kept = Signal(len(samples), reset_less=True)
             m.d.sync += kept.eq(Cat(is_measured(sample.code) for sample in samples))
             m.d.comb += median.keep.eq(kept)
 
-        latency = 1 + median.latency
+        latency = self.latency
         along = data.View(beside, delayed(m, Value.cast(window.companion), latency, "along"))
         of_centre = data.View(element, delayed(m, Value.cast(centre), latency, "centre"))
         results: dict[str, Value] = {name: along[name] for name in beside.members}

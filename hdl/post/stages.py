@@ -16,18 +16,23 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
     """
     post = config.post
     size = (config.result_bits, config.pixel.size)
-    holes = not post.fill
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
     if post.island:
         stages["island"] = Island(*size, config.max_width, post.island)
     if post.fill:
         stages["fill"] = Fill(*size, config.max_width)
     if post.median:
-        reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
-        stages["median"] = Median(*size, config.max_width, **reach, holes=holes)
+        stages["median"] = median_of(config)
     if post.masked_median:
         stages["masked_medians"] = masked_medians_of(config)
     return stages
+
+
+def median_of(config: Config) -> Median:
+    """The stage of the median."""
+    reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
+    holes = not config.post.fill
+    return Median(config.result_bits, config.pixel.size, config.max_width, **reach, holes=holes)
 
 
 def masked_medians_of(config: Config) -> MaskedMedians:

@@ -10,16 +10,9 @@ from typing import Any, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from softdepth.spec import ranges, stored_rows
-from softdepth.spec.criteria import (
-    LITERAL_INPUT,
-    AnyCriterion,
-    Census,
-    Compensation,
-    Criterion,
-    Gradient,
-    Sad,
-)
+from softdepth.spec import consistency, ranges, stored_rows
+from softdepth.spec.compensation import LITERAL_INPUT, Compensation
+from softdepth.spec.criteria import AnyCriterion, Census, Criterion, Gradient, Sad
 from softdepth.spec.operators import REGISTRY
 from softdepth.spec.pixel import PixelFormat
 from softdepth.spec.post import Post
@@ -108,47 +101,7 @@ class Config(Settings):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        if self.disparities % self.lanes:
-            fits = [n for n in range(1, self.disparities + 1) if self.disparities % n == 0]
-            raise ValueError(
-                f"lanes is {self.lanes}, which does not divide disparities = {self.disparities}:"
-                f" use one of {', '.join(map(str, fits))}"
-            )
-        count = len(self.criteria)
-        if count != 3 and (self.cost == "fuzzy" or not 0 < count < 3):
-            takes = "3" if self.cost == "fuzzy" else "1 to 3"
-            raise ValueError(f"criteria has {count} entries, but cost = '{self.cost}' takes {takes}")
-        if self.reach_rows == 0 and not self.whole_frame:
-            raise ValueError(
-                "all windows are 1, but the core needs a support of more than one row: use a window of 3"
-                " or more in one criterion"
-            )
-        if self.multipliers > self.max_multipliers:
-            raise ValueError(
-                f"operator '{self.operator}' in {self.lanes} lanes takes {self.multipliers} multipliers of"
-                f" {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits, more than max_multipliers ="
-                f" {self.max_multipliers}: use fewer lanes, or raise max_multipliers to what the part has"
-            )
-        for criterion in self.criteria:
-            if self.cost == "fuzzy" and criterion.label_bits < self.membership_bits:
-                raise ValueError(
-                    f"membership_bits is {self.membership_bits}, more than label_bits ="
-                    f" {criterion.label_bits}: memberships are the sum shifted right"
-                )
-        if self.max_width < self.min_width or self.max_height < self.min_height:
-            raise ValueError(
-                f"max_width x max_height is {self.max_width} x {self.max_height}, smaller than the"
-                f" smallest frame, {self.min_width} x {self.min_height}: raise them, or use smaller windows"
-            )
-        if self.compensation.reading != "off":
-            if self.cost != "fuzzy":
-                raise ValueError("compensation acts on fuzzy inputs: use reading = 'off' with cost = 'sum'")
-            if self.compensation_criterion is None:
-                raise ValueError(
-                    "compensation looks at the centred 3x3 SAD, which is not among the criteria:"
-                    " add {kind = 'sad', window = 3, dx = 0}, name another with compensation.criterion, or"
-                    " use reading = 'off'"
-                )
+        consistency.check(self)
         return self
 
     def shaping(self) -> dict[str, Any]:

@@ -1,14 +1,13 @@
-"""The parts of a configuration: criteria and the compensating rule (Bobyr et al. 2021)."""
+"""The criteria of a configuration, and what each states of itself."""
 
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, PlainValidator, SerializeAsAny, model_validator
+from pydantic import Field, PlainValidator, SerializeAsAny, model_validator
 from pydantic_core import PydanticCustomError
 
+from softdepth.spec.frozen import Frozen
 from softdepth.spec.pixel import PixelFormat
 from softdepth.spec.registry import Registry
-
-Reading = Literal["off", "top", "literal"]
 
 GRADIENT_CAP = 31
 """Largest gradient that the SADs of gradients see."""
@@ -16,14 +15,6 @@ RECIPROCAL_BITS = 12
 """Fraction bits of the reciprocal of a support's number of columns."""
 SUPPORT_SHIFT = 10
 """Bits that the mean of a support's columns drops: two fraction bits stay."""
-LITERAL_INPUT = 1000
-"""The value that the compensating rule's literal reading gives every criterion."""
-
-
-class Frozen(BaseModel):
-    """A model that is checked when it is made, and never changes."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
 class AnyCriterion(Frozen):
@@ -67,6 +58,11 @@ class AnyCriterion(Frozen):
     def products(self) -> int:
         """Multiplications that a candidate's value takes."""
         return 0
+
+    @property
+    def reciprocals(self) -> tuple[int, ...]:
+        """What the sum of 1, 2, ... columns is multiplied by to be a mean: of several, a table in memory."""
+        return ()
 
     @property
     def rows_above(self) -> int:
@@ -298,18 +294,3 @@ def criterion_of(data: Any) -> AnyCriterion:
 
 Criterion = Annotated[SerializeAsAny[AnyCriterion], PlainValidator(criterion_of)]
 """A field that takes any registered criterion."""
-
-
-class Compensation(Frozen):
-    """The compensating rule against false near objects (paper, section 4, step 3).
-
-    Candidates with ``d >= from_disparity`` whose SAD exceeds ``threshold`` have all criteria
-    replaced: by the top label 2T (``top``) or by 1000 (``literal``). ``criterion`` says which SAD is
-    looked at: 0 is the centred 3x3 one of eq. 7, 1 to 3 the criterion of that number. The paper's
-    Fig. 4 is met by ``top`` looking at criterion 3.
-    """
-
-    reading: Reading = "off"
-    threshold: int = Field(default=1200, ge=0)
-    from_disparity: int = Field(default=32, ge=-256)
-    criterion: int = Field(default=0, ge=0, le=3)

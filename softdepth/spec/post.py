@@ -4,7 +4,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
-from softdepth.spec.criteria import Frozen
+from softdepth.spec.frozen import Frozen
 
 ISLAND_REACH = 2
 """Rows and columns around a pixel that the island test looks at: 5x5."""

@@ -11,8 +11,10 @@ from typing import Any, Self
 import tomli_w
 from pydantic import BaseModel, ValidationError
 
-from softdepth.spec.criteria import CRITERIA, UNKNOWN_KIND, AnyCriterion, Compensation, Frozen
+from softdepth.spec.compensation import Compensation
+from softdepth.spec.criteria import CRITERIA, UNKNOWN_KIND, AnyCriterion
 from softdepth.spec.errors import ConfigError
+from softdepth.spec.frozen import Frozen
 from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
 

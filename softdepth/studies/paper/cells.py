@@ -10,8 +10,8 @@ import numpy as np
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.score.metrics import Metrics, evaluate, paper_rmse
+from softdepth.spec.compensation import Reading as Rule
 from softdepth.spec.config import Config, Operator
-from softdepth.spec.criteria import Reading as Rule
 from softdepth.studies.paper import matchers, prototype
 from softdepth.studies.paper.margins import Margins
 from softdepth.studies.paper.readings import Reading

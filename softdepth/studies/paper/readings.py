@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from softdepth.golden.data.truth import View
+from softdepth.spec.compensation import Reading as Rule
 from softdepth.spec.config import Config, Operator
-from softdepth.spec.criteria import Reading as Rule
 
 Method = Literal["sad", "fmcdm", "prototype", "stereobm", "stereosgbm"]
 

@@ -6,7 +6,6 @@ from importlib.metadata import version
 
 from softdepth.export.constants import span, template
 from softdepth.export.interface import Interface
-from softdepth.spec.config import Census
 
 WIDTH = 107
 """Columns of the comment's text."""
@@ -50,7 +49,7 @@ def _ports(interface: Interface) -> Iterator[str]:
 
 def _use(interface: Interface) -> Iterator[str]:
     c = interface.config
-    census = any(isinstance(criterion, Census) for criterion in c.criteria)
+    table = any(len(criterion.reciprocals) > 1 for criterion in c.criteria)
     yield "How to use it:"
     for text in (
         "Pixels come row by row, from the top left; there is one result for each pixel, in the same order."
@@ -60,7 +59,7 @@ def _use(interface: Interface) -> Iterator[str]:
         + (" Lower ones have no result that is a measurement." if c.min_height > 1 else "")
         + " Narrower ones are filled and marked as damaged. A frame's first line gives its width.",
         "Memories have no initial words in synthesis, and need none; simulators find them cleared."
-        + (" The table of reciprocals is the exception." if census else ""),
+        + (" The table of reciprocals is the exception." if table else ""),
     ):
         yield from textwrap.wrap(
             text, WIDTH, initial_indent="  - ", subsequent_indent="    ", break_on_hyphens=False

@@ -24,7 +24,6 @@ from softdepth.rig.geometry import Geometry
 from softdepth.run.report import Accuracy, accuracy
 from softdepth.sources import sources_hash
 from softdepth.spec.config import Config
-from softdepth.spec.registry import extension_files
 from softdepth.spec.validity import Validity
 
 SCHEMA = 1
@@ -99,7 +98,7 @@ class Recipe:
                 self.disparity_error,
                 self.about,
             ),
-            sources_hash(*rooms, further=extension_files()),
+            sources_hash(*rooms),
             *(version(name) for name in ("numpy", "opencv-python-headless")),
         ]
         return hashlib.sha256(repr(parts).encode()).hexdigest()

@@ -21,9 +21,23 @@ from tests.support.verilog import ports
 
 
 def head(name: str) -> str:
+    """The comment of one of `SMALL`."""
+    return comment(exported(name).verilog)
+
+
+def comment(text: str) -> str:
     """The comment as one line: where it breaks is of no concern."""
-    text = exported(name).verilog
     return re.sub(r"\n//\s*", " ", text[: text.index("\n\n")])
+
+
+@pytest.mark.parametrize("taps", [1, 7])
+def test_a_memory_with_initial_words_is_named_where_there_is_one(taps: int) -> None:
+    """Those that simulators find cleared are in blocks with a name of their own."""
+    config = SMALL["robust"].override([f"criteria.0.taps={taps}"])
+    text = export_core(config).verilog
+    table = re.search(r"^ *initial begin$", text, re.MULTILINE)
+    assert bool(table) == (taps > 1)
+    assert ("table of reciprocals" in comment(text)) == bool(table)
 
 
 @pytest.mark.parametrize("name", SMALL)

@@ -57,6 +57,20 @@ def test_fusesoc_lints(package: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
 
 
+@pytest.mark.slow
+def test_fusesoc_lints_every_stage_and_wishbone(tmp_path: Path) -> None:
+    """With the check, the island test, sixteenths, confidence, filling and both medians."""
+    config = Config.preset("robust-small").override(
+        ["max_width=64", "max_height=48", "disparities=4", "lanes=4", "pixel=gray8"]
+    )
+    config.save(tmp_path / "small.toml")
+    target = tmp_path / "ip"
+    chosen = ["--config", str(tmp_path / "small.toml"), "--name", "depth", "-o", str(target)]
+    main(["export", "--ip", "axi", "--bus", "wishbone", *chosen])
+    done = lint(target, tmp_path)
+    assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
+
+
 def test_fusesoc_would_say_so(package: Path, tmp_path: Path) -> None:
     core = package / "depth.v"
     text = core.read_text()

@@ -14,7 +14,7 @@ from amaranth.lib.wiring import Component, In
 
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import ResultQueue
-from tests.support.proofs import proof
+from tests.support.proofs import late, pipeline_proof, proof
 
 BITS = 2
 LATENCY = 1
@@ -123,3 +123,28 @@ class Ordered(Component):
 def test_items_are_neither_lost_nor_doubled(tmp_path: Path) -> None:
     assert proof(Ordered(lost=False), tmp_path) != "refuted"
     assert proof(Ordered(lost=True), tmp_path) == "refuted"
+
+
+class Remembering(Component):
+    """A pipeline of two clocks; with a fault, it goes wrong once in 1024 clocks."""
+
+    i: In(BITS)
+    latency = 2
+
+    def __init__(self, wrong: bool) -> None:
+        self._wrong = wrong
+        super().__init__()
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        count = Signal(10)
+        m.d.sync += count.eq(count + 1)
+        o = Signal(BITS)
+        m.d.comb += o.eq(late(m, self.i, self.latency, "o") ^ (count.all() & self._wrong))
+        m.d.comb += Assert(o == late(m, self.i, self.latency, "expected"))
+        return m
+
+
+def test_a_pipeline_is_proven_from_any_state(tmp_path: Path) -> None:
+    assert pipeline_proof(Remembering(wrong=False), tmp_path, Remembering.latency) == "every run"
+    assert pipeline_proof(Remembering(wrong=True), tmp_path, Remembering.latency) == "refuted"

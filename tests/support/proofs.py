@@ -47,9 +47,7 @@ def pipeline_proof(dut: Component, folder: Path, latency: int) -> Proof:
     It begins in any state, and the assertions are looked at once that state has left. So this is every run.
     """
     said = _solved(
-        dut,
-        folder,
-        f"sat -set rst 0 -seq {latency + 1} -prove-skip {latency}",
+        dut, folder, f"setattr -unset init w:*; sat -set rst 0 -seq {latency + 1} -prove-skip {latency}"
     )
     if said is None:
         return "every run"

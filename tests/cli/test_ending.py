@@ -128,7 +128,12 @@ def test_what_the_machine_refuses_is_the_users_to_mend(capsys, error, words):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
 def test_a_signal_ends_the_program_and_its_children(number):
-    with subprocess.Popen([sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True) as parent:
+    def heard() -> None:
+        """A suite in the background of a shell, or under nohup, passes on that the signal is ignored."""
+        signal.signal(number, signal.SIG_DFL)
+
+    command = [sys.executable, "-c", PARENT]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heard) as parent:
         assert parent.stdout
         grandchild = psutil.Process(int(parent.stdout.readline()))
         family = [grandchild, *psutil.Process(parent.pid).children(recursive=True)]

@@ -26,7 +26,7 @@ class Block(BaseModel):
     dsp: int
 
 
-def blocks(netlist: Netlist, depth: int = 3) -> list[Block]:
+def blocks(netlist: Netlist, depth: int = 4) -> list[Block]:
     """The blocks of a mapped ECP5 design, by the names that its cells kept from the hierarchy.
 
     A lookup table belongs to the block whose net it drives; where logic of two blocks was merged, that is

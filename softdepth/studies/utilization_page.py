@@ -95,9 +95,8 @@ def block_rams_left(row: Row) -> int:
 
 
 def write(folder: Path, measurements: Sequence[Measurement]) -> None:
-    """Write both files into `folder`."""
-    family = FAMILIES[PART.family]
-    tools = {name: find_tool(name).version for name in ("yosys", family.placer, family.packer)}
+    """Write both files into `folder`, whose earlier rows may have been measured by other programs."""
+    tools = _tools(folder)
     figures = {
         "tools": tools,
         "part": f"{PART.device}-{PART.speed}{PART.package}",
@@ -107,6 +106,20 @@ def write(folder: Path, measurements: Sequence[Measurement]) -> None:
     }
     write_atomically(folder / JSON, (json.dumps(figures, indent=1) + "\n").encode())
     write_atomically(folder / "utilization.md", page(measurements, tools).encode())
+
+
+def _tools(folder: Path) -> dict[str, str]:
+    """Versions of the programs; those that measured the folder's earlier rows stand before today's."""
+    try:
+        earlier = json.loads((folder / JSON).read_text())["tools"]
+    except (OSError, ValueError, KeyError):
+        earlier = {}
+    family = FAMILIES[PART.family]
+    tools = {}
+    for name in ("yosys", family.placer, family.packer):
+        known = earlier[name].split(" or ") if name in earlier else []
+        tools[name] = " or ".join(dict.fromkeys([*known, find_tool(name).version]))
+    return tools
 
 
 def modes(row: Row) -> list[str]:

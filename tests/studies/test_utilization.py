@@ -143,8 +143,8 @@ def test_blocks_account_for_every_cell(tmp_path):
     total = taken(netlist)
     for resource in ("lut4", "ff", "ebr"):
         assert sum(getattr(block, resource) for block in found.values()) == total[resource]
-    assert {"top", "core.guard", "core.lane.sad", "core.sequencer"} <= set(found)
-    assert found["core.lane.sad"].ff > found["core.guard"].ff > 0
+    assert {"top", "core.front.guard", "core.costs.lane.sad", "core.costs.sequencer"} <= set(found)
+    assert found["core.costs.lane.sad"].ff > found["core.front.guard"].ff > 0
     assert len(netlist["modules"][TOP]["ports"]) == 5
 
 
@@ -301,3 +301,12 @@ def test_the_page_in_the_documents_is_what_its_figures_give(project):
     figures = json.loads((project / "docs" / "utilization.json").read_text())
     page = utilization_page.page(utilization_page.load(project / "docs"), figures["tools"])
     assert page == (project / "docs" / "utilization.md").read_text()
+
+
+def test_programs_of_earlier_rows_stay_named(runs, tmp_path, monkeypatch):
+    """Rows that stay were measured by those, whatever is installed now."""
+    for seed, version in enumerate(("one", "another", "another"), 1):
+        found = Tool("any", ("any",), version)
+        monkeypatch.setattr(utilization_page, "find_tool", lambda name, found=found: found)
+        assert main(["utilization", "--row", f"sad/sum/8@{seed}", "-o", str(tmp_path)]) == 0
+    assert json.loads((tmp_path / "utilization.json").read_text())["tools"]["yosys"] == "one or another"

@@ -37,6 +37,11 @@ class Difference(NamedTuple):
         return f"y={self.y} x={self.x}: expected {self.expected}, got {self.got}"
 
 
+def has_value(code: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Where there is a disparity beside a code: measured or filled."""
+    return (code < Validity.BORDER) | (code == Validity.FILLED)
+
+
 @dataclass(frozen=True, eq=False)
 class DisparityMap:
     """Disparities of a frame and why each is, or is not, a measurement.
@@ -90,7 +95,7 @@ class DisparityMap:
     @property
     def given(self) -> NDArray[np.bool_]:
         """HxW: where there is a disparity, measured or filled."""
-        return self.valid | (self.code == Validity.FILLED)
+        return has_value(self.code)
 
     @property
     def pixels(self) -> NDArray[np.float32]:

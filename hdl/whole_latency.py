@@ -6,7 +6,7 @@ from amaranth.hdl import unsigned
 
 from softdepth.hdl.asked import asked
 from softdepth.hdl.costs.comparison import plan
-from softdepth.hdl.costs.rooms import costs_of
+from softdepth.hdl.costs.rooms import costs_of, drain_of
 from softdepth.hdl.front.census import CENSUS_REACH
 from softdepth.hdl.front.census import Census as CensusBlock
 from softdepth.hdl.front.descriptors import GRADIENT_REACH
@@ -68,7 +68,7 @@ class WholeLatency:
             clocks=clocks,
             right=reach.right,
             below=reach.below,
-            drain=config.disparities - 1 if post.check else 0,
+            drain=drain_of(config),
             masked=post.masked_median,
         )
 

@@ -189,6 +189,14 @@ def whole_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(workplace.with_name(f"{workplace.name}-old"), ignore_errors=True)
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and its parents where they are missing; raises `InputError` where that cannot be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(folder, error) from error
+
+
 def clear_unfinished(folder: Path) -> None:
     """Remove what an interrupted `whole_folder` has left in a folder."""
     for path in folder.glob(f"{UNFINISHED}*"):

@@ -11,6 +11,7 @@ from softdepth.hdl.axi.register_bank import RegisterBank, word_bits
 from softdepth.hdl.axi.tdata import extended, outcome_layout, pair_bits, pixel_of
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
+from softdepth.hdl.post.layout import is_measured
 from softdepth.hdl.signatures import Faults, Status, settings_layout
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
@@ -147,12 +148,12 @@ class AxiCore(wiring.Component):
         outcome = Signal(outcome_layout(config))
         unsure = Signal()
         if config.post.confidence:
-            measured = result.code < Validity.BORDER
+            measured = is_measured(result.code)
             m.d.comb += unsure.eq(measured & (result.confidence < applied.confidence_floor))
             m.d.comb += outcome.confidence.eq(result.confidence)
         code = Signal(UNSURE.bit_length())
         m.d.comb += code.eq(Mux(unsure, UNSURE, result.code))
-        valid = (code < Validity.BORDER) | (code == Validity.FILLED)
+        valid = is_measured(code) | (code == Validity.FILLED)
         disparity = extended(Value.cast(result.disparity), config.signed)
         m.d.comb += [
             outcome.disparity.eq(Mux(valid, disparity, applied.invalid_value)),

@@ -16,6 +16,9 @@ def costs_of(config: Config, compared: data.StructLayout) -> BandCosts | WholeCo
     """
     if not config.whole_frame:
         return BandCosts(config)
-    # The right view's winners of a line's last columns leave in slots of their own.
-    drain = config.disparities - 1 if config.post.check else 0
-    return WholeCosts(config, compared, config.pixel.channels, drain=drain)
+    return WholeCosts(config, compared, config.pixel.channels, drain=drain_of(config))
+
+
+def drain_of(config: Config) -> int:
+    """Slots behind a frame, in which the right view's winners of its last columns leave."""
+    return config.disparities - 1 if config.post.check else 0

@@ -103,12 +103,10 @@ def _facts_of_any(config: Config) -> dict[str, str]:
 
 def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """The same of a core without a border band, whose stages hold their input back beyond a frame's edges."""
-    from softdepth.hdl.asked import asked
     from softdepth.hdl.signatures import pair_layout, result_layout
     from softdepth.hdl.whole_latency import WholeLatency
 
-    with asked():
-        whole = WholeLatency.of(config)
+    whole = WholeLatency.of(config)
     cycles = whole.frame_clocks(width, height, config.steps)
     return {
         **_facts_of_any(config),

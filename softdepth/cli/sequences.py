@@ -10,7 +10,7 @@ import typer
 
 from softdepth import ending, screen
 from softdepth.cli import calibrations, metres, options
-from softdepth.files import refuse_to_replace
+from softdepth.files import make_folder, refuse_to_replace
 from softdepth.spec.errors import InputError
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def run(ready: Ready, how: How) -> int:
 
     output, checked = ready.plan.output, ready.checked
     folder = output / FRAMES
-    _make(folder)
+    make_folder(folder)
     (output / table.SUMMARY).unlink(missing_ok=True)
     others = [each for each in folder.iterdir() if each.is_dir() and each.name not in checked.names]
     if others:
@@ -203,14 +203,6 @@ def _show(summary: dict, records: "list[Record]", name: str) -> None:
         print(f"board: {summary['engine_frames_per_second']:.2f} frames a second, there and back")
     if summary["mismatches"] is not None:
         print(f"gateware against fixed model: {summary['mismatches']} mismatches")
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(f"cannot write to '{folder}' ({reason})", "choose another with -o") from error
 
 
 def _refuse_inputs(plan: Plan, files: tuple[Path, ...]) -> None:

@@ -9,9 +9,9 @@ from PIL import Image
 
 from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.truth import read_truth
+from softdepth.golden.maps import has_value
 from softdepth.golden.score import pictures
 from softdepth.sequence.frame import Record
-from softdepth.spec.validity import Validity
 
 WIDEST = 1920
 """Pixels across both pictures; larger ones are made smaller."""
@@ -24,8 +24,7 @@ def shown(pairs: Iterable[StereoPair], records: list[Record], folder: Path) -> I
         place = folder / record.name
         disparity = read_truth(place / "disparity.pfm").disparity
         code = np.array(Image.open(place / "code.png"))
-        given = (code < Validity.BORDER) | (code == Validity.FILLED)
-        coloured = pictures.colour(disparity, given, high, minimum=low, code=code)
+        coloured = pictures.colour(disparity, has_value(code), high, minimum=low, code=code)
         picture = np.hstack([pair.as_format("rgb8").left, coloured])
         height, width = picture.shape[:2]
         if width > WIDEST:

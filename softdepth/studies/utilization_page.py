@@ -1,8 +1,9 @@
 """``docs/utilization.md`` and ``.json``: the measured configurations as a table, and what they can do."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from softdepth.files import write_atomically
 from softdepth.flow.families import FAMILIES
@@ -16,6 +17,8 @@ from softdepth.studies.utilization import (
     row_name,
 )
 from softdepth.templates import render
+
+T = TypeVar("T", Measurement, Row)
 
 JSON = "utilization.json"
 
@@ -75,18 +78,13 @@ def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Mea
 
 def medians(measurements: Sequence[Measurement]) -> list[tuple[Measurement, list[Measurement]]]:
     """Of each row the measurement with the median clock, the lower one of two, and those of all its seeds."""
-    rows: dict[tuple[str, int, int], list[Measurement]] = {}
-    for each in measurements:
-        rows.setdefault(_identity(each.row), []).append(each)
-    return [(_median(seeds), sorted(seeds, key=lambda each: each.seed)) for seeds in rows.values()]
+    rows = _alike_but_for_seeds(measurements, lambda each: each.row)
+    return [(seeds[_middle(seeds)], sorted(seeds, key=lambda each: each.seed)) for seeds in rows]
 
 
 def median_rows(rows: Sequence[Row]) -> list[Row]:
     """Of rows that differ in nothing but the seed, the one with the median clock, the lower one of two."""
-    alike: dict[tuple[str, int, int], list[Row]] = {}
-    for row in rows:
-        alike.setdefault(_identity(row), []).append(row)
-    return [sorted(each, key=lambda row: row.fmax_mhz)[(len(each) - 1) // 2] for each in alike.values()]
+    return [seeds[_middle(seeds)] for seeds in _alike_but_for_seeds(rows, lambda row: row)]
 
 
 def block_rams_left(row: Row) -> int:
@@ -156,8 +154,17 @@ def _name(row: Row) -> str:
     return row_name(row.preset, row.operator, row.lanes, row.device.rpartition("-")[0])
 
 
-def _median(seeds: Sequence[Measurement]) -> Measurement:
-    return sorted(seeds, key=lambda each: each.row.fmax_mhz)[(len(seeds) - 1) // 2]
+def _alike_but_for_seeds(found: Iterable[T], row_of: Callable[[T], Row]) -> list[list[T]]:
+    """What differs in nothing but the seed, together, the slowest clock first."""
+    groups: dict[tuple[str, int, int], list[T]] = {}
+    for each in found:
+        groups.setdefault(_identity(row_of(each)), []).append(each)
+    return [sorted(seeds, key=lambda each: row_of(each).fmax_mhz) for seeds in groups.values()]
+
+
+def _middle(seeds: Sequence[object]) -> int:
+    """Place of the median, the lower one of two."""
+    return (len(seeds) - 1) // 2
 
 
 def _alike(a: Measurement, b: Measurement) -> bool:

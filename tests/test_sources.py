@@ -12,11 +12,12 @@ SHARED = {
     "files.py",
     "markers.py",
     "webpage.py",
+    "processes.py",
     "screen.py",
     "sources.py",
     "templates.py",
 }
-"""Modules that decide no result: how errors read, where files and tables lie."""
+"""Modules that decide no result: how errors read, where files and tables lie, who does the work."""
 
 
 def test_further_files_count(tmp_path):

@@ -1,6 +1,5 @@
 """``softdepth board``: a stereo pair to depth on an FPGA board, measured."""
 
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -51,6 +50,7 @@ def board(
     from softdepth.board.device import Device
     from softdepth.board.link import Link
     from softdepth.board.port import Port
+    from softdepth.processes import cores
     from softdepth.run import measure, report
 
     source.keep_safe(output, (*report.FILES, results.LAST), choice.config)
@@ -62,7 +62,7 @@ def board(
         chosen = found.config
         screen.note(f"{found.board}, {found.revision}: {chosen.name} ({chosen.hash})")
         if source.is_sequence:
-            how = sequences.How("board", processes or os.cpu_count() or 1, fps, device)
+            how = sequences.How("board", processes or cores(), fps, device)
             _sequence(source, chosen, how, output)
             return
         pair = source.read(chosen)

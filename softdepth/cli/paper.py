@@ -45,6 +45,7 @@ def paper(
     ] = None,
 ) -> None:
     """Regenerate the paper's tables and pictures: published, float, fixed point and gateware."""
+    from softdepth.processes import cores
     from softdepth.studies.paper import cache, evaluation, pages, readings, speed, work
     from softdepth.studies.paper.document import assemble
     from softdepth.studies.paper.published import SCENES
@@ -59,7 +60,7 @@ def paper(
     simulated = work.gateware(chosen, wanted_scenes, wanted_operators) if engine == "rtl" else []
     with results.result_folder(output) as folder:
         speeds = speed.with_luts(evaluation.speeds_of(chosen, place), AREA)
-        maps = evaluation.maps_of(chosen, cache.MapCache(place), jobs or work.cores(), simulated)
+        maps = evaluation.maps_of(chosen, cache.MapCache(place), jobs or cores(), simulated)
         found = assemble(maps, chosen, speeds)
         evaluation.write(folder, found, maps, chosen)
     if document is not None:

@@ -1,6 +1,5 @@
 """``softdepth sequence``: videos, folders and rigs of stereo pairs to depth."""
 
-import os
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -63,10 +62,12 @@ def sequence(
     ] = Path("out/sequence"),
 ) -> None:
     """Compute the depth of a sequence of stereo pairs; what is there from an earlier run is kept."""
+    from softdepth.processes import cores
+
     kept.choice()
     views = pairs.Source(side_by_side=side_by_side, top_bottom=top_bottom)
     given = sequences.Given(left, right, views.joined, bits, truth, truth_scale)
-    how = sequences.How(engine, processes or os.cpu_count() or 1, fps)
+    how = sequences.How(engine, processes or cores(), fps)
     if right is not None or given.joined is not None or not left.is_dir():
         if rigs_raw:
             raise InputError(f"--raw without a folder of rigs: '{left}'", "use --rectify FILE")

@@ -1,14 +1,10 @@
 """The work of a sequence: frames through an engine, finished in processes while the next are under way."""
 
-import multiprocessing
-import os
-import signal
-import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
-from contextlib import contextmanager
+from concurrent.futures import Executor, Future
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +13,7 @@ from softdepth import screen
 from softdepth.files import clear_unfinished
 from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.maps import DisparityMap
+from softdepth.processes import workers
 from softdepth.sequence.frame import Recipe, Record, finish, kept
 
 if TYPE_CHECKING:
@@ -52,7 +49,8 @@ class Work:
         clear_unfinished(self.folder)
         through = {"rtl": self._simulated, "board": self._board, "fixed": self._model}[self.recipe.engine]
         try:
-            with _executor(min(self.processes, len(self.names))) as pool:
+            count = min(self.processes, len(self.names))
+            with workers(count, "--processes") if count > 1 else nullcontext(_Here()) as pool:
                 return through(pool)
         finally:
             clear_unfinished(self.folder)
@@ -138,30 +136,3 @@ def _there(result: Any) -> "Future[Any]":
     future: Future[Any] = Future()
     future.set_result(result)
     return future
-
-
-@contextmanager
-def _executor(processes: int) -> Iterator[Executor]:
-    """Processes that are begun anew, since OpenCV's threads do not survive a fork."""
-    if processes == 1:
-        yield _Here()
-        return
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(processes, context, initializer=_begin)
-    try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for each in multiprocessing.active_children():  # none is to write on while this one clears away
-            each.terminate()
-            each.join()
-        raise
-    pool.shutdown()
-
-
-def _begin() -> None:
-    """Leave Ctrl-C to the process that has begun this one, and end with it, however it ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()

@@ -1,7 +1,6 @@
 """The work of an evaluation: a scene a task, in several processes."""
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -12,6 +11,7 @@ from softdepth.golden import fixed_model
 from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.maps import DisparityMap
 from softdepth.golden.post.fill import fill
+from softdepth.processes import workers
 from softdepth.spec.config import Config, Post
 from softdepth.spec.validity import Validity
 from softdepth.studies.evaluate import opencv
@@ -72,16 +72,12 @@ def run(scenes: Sequence[Scene], plan: Plan, processes: int) -> list[SceneWork]:
                 done += size
                 advance(done)
             return works
-        with ProcessPoolExecutor(processes) as pool:
+        with workers(processes, "--processes") as pool:
             tasks = [pool.submit(evaluate_scene, scene, plan) for scene in scenes]
-            try:
-                for task, size in zip(tasks, sizes, strict=True):
-                    works.append(task.result())
-                    done += size
-                    advance(done)
-            except BaseException:
-                pool.shutdown(cancel_futures=True)
-                raise
+            for task, size in zip(tasks, sizes, strict=True):
+                works.append(task.result())
+                done += size
+                advance(done)
     return works
 
 

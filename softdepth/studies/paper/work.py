@@ -1,13 +1,10 @@
 """Which maps the evaluation needs, and computing them: on all cores, each once, from the cache if it can."""
 
-import multiprocessing
-import os
-import signal
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 
+from softdepth.processes import workers
 from softdepth.spec.config import OPERATORS
-from softdepth.spec.errors import ToolError
 from softdepth.studies.paper import readings, scenes
 from softdepth.studies.paper.cache import MapCache
 from softdepth.studies.paper.cells import Cell, Found, compute
@@ -96,27 +93,14 @@ def simulate(cell: Cell, cache: MapCache, advance: Callable[[int], None]) -> Fou
     return found
 
 
-def cores() -> int:
-    """The processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _computed(cells: list[Cell], jobs: int) -> Iterable[tuple[Cell, Found]]:
     if jobs <= 1:
         yield from ((cell, _compute(cell)) for cell in cells)
         return
-    context = multiprocessing.get_context("spawn")
-    # Ctrl-C reaches every process of a terminal; this one ends the others.
-    ignore = (signal.SIGINT, signal.SIG_IGN)
-    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=signal.signal, initargs=ignore)
-    try:
+    with workers(jobs, "--jobs") as pool:
         futures = {pool.submit(_compute, cell): cell for cell in cells}
         for future in as_completed(futures):
             yield futures[future], future.result()
-    except BrokenExecutor as error:
-        raise ToolError(f"a worker process failed: {error}", "try again with --jobs 1") from error
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def _compute(cell: Cell) -> Found:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softdepth.golden.data.datasets import DATA_VARIABLE
+from softdepth.processes import cores
 from softdepth.spec.config import OPERATORS, Operator
 from softdepth.studies.paper import figure4, published, readings, scenes, work
 from softdepth.studies.paper.cache import MapCache
@@ -48,7 +49,7 @@ def test_mean_on_teddy(name, recorded):
 def test_all_14_cells(name):
     reading = readings.FMCDM[name]
     cells: list[tuple[str, Operator]] = [(scene, operator) for scene in SCENES for operator in OPERATORS]
-    maps = work.run([Cell(s, reading, o, "float") for s, o in cells], MapCache(None), work.cores())
+    maps = work.run([Cell(s, reading, o, "float") for s, o in cells], MapCache(None), cores())
     rows = [row(maps, "FMCDM", s, reading, o, published.FMCDM[s][o]) for s, o in cells]
     assert mean_deviation(rows) <= 0.65
     assert mean_deviation(rows, everything=True) <= 1.0

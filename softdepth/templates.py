@@ -1,9 +1,11 @@
 """Pages in Markdown and HTML, rendered from the template files that lie beside the module that fills them."""
 
+import re
 from functools import cache
 from typing import Any
 
 import jinja2
+from markupsafe import Markup, escape
 
 
 def render(package: str, template: str, **values: Any) -> str:
@@ -28,4 +30,10 @@ def _environment(package: str) -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters["number"] = format  # {{ 1234.56 | number(",.1f") }}
+    environment.filters["bold"] = _bold
     return environment
+
+
+def _bold(text: str) -> Markup:
+    """Text in HTML, in which ``**`` marks what is bold."""
+    return Markup(re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", str(escape(text))))

@@ -11,7 +11,6 @@ SHARED = {
     "errors.py",
     "files.py",
     "markers.py",
-    "webpage.py",
     "processes.py",
     "screen.py",
     "sources.py",

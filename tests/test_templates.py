@@ -46,3 +46,12 @@ def test_a_table_has_words_to_the_left_and_numbers_to_the_right(tmp_path_factory
     monkeypatch.syspath_prepend(folder.parents[1])
     rows = [["x", "1"], ["", "2"]]
     assert render("tabled", "page.md", rows=rows) == "| a | b |\n|---|---:|\n| x | 1 |\n|  | 2 |"
+
+
+def test_bold_words_are_marked_and_what_is_around_them_is_escaped(tmp_path_factory, monkeypatch):
+    folder = tmp_path_factory.mktemp("others") / "bold" / "templates"
+    folder.mkdir(parents=True)
+    (folder.parent / "__init__.py").touch()
+    (folder / "page.html").write_text("{{ text | bold }}")
+    monkeypatch.syspath_prepend(folder.parents[1])
+    assert render("bold", "page.html", text="**a <b>** & c") == "<strong>a &lt;b&gt;</strong> &amp; c"

@@ -82,34 +82,22 @@ def machine() -> dict[str, str | int]:
 
 def page(figures: dict[str, Any]) -> str:
     """The figures as a Markdown page."""
-    pixels = figures["width"] * figures["height"]
-    matcher = figures["opencv_stereobm_seconds"]
-    lines = [
-        "# Benchmarks",
-        "",
-        "Written by `make bench`; the same figures for programs are in [benchmarks.json](benchmarks.json).",
-        "",
-        f"Pair: {figures['pair']}, {figures['width']}x{figures['height']}, {pixels} pixels. The simulation"
-        f" runs its first {figures['simulated_rows']} rows; the models and OpenCV run the whole frame.",
-        "",
-        "| preset | candidates | lanes | clocks per pixel | simulated pixels per second"
-        " | fixed model, s per frame | float model, s per frame |",
-        "|---|---:|---:|---:|---:|---:|---:|",
-        *(
-            f"| {name} | {p['disparities']} | {p['lanes']} | {p['cycles_per_pixel']:.3f}"
-            f" | {p['sim_pixels_per_second']:,.0f} | {p['fixed_seconds']:.2f} | {p['float_seconds']:.2f} |"
-            for name, p in figures["presets"].items()
-        ),
-        "",
-        f"For scale: OpenCV's StereoBM (window {BM_WINDOW}, candidates as in preset paper, one thread) takes"
-        f" {matcher * 1000:.1f} ms for the frame. It runs on a processor; the gateware's own speed is"
-        " its clock frequency divided by the clocks per pixel.",
-        "",
-        "| machine | |",
-        "|---|---|",
-        *(f"| {key} | {value} |" for key, value in figures["machine"].items()),
+    from softdepth.templates import render
+
+    rows = [
+        [
+            name,
+            p["disparities"],
+            p["lanes"],
+            f"{p['cycles_per_pixel']:.3f}",
+            f"{p['sim_pixels_per_second']:,.0f}",
+            f"{p['fixed_seconds']:.2f}",
+            f"{p['float_seconds']:.2f}",
+        ]
+        for name, p in figures["presets"].items()
     ]
-    return "\n".join(lines) + "\n"
+    values = {**figures, "rows": rows, "bm_window": BM_WINDOW}
+    return render("softdepth.studies", "benchmarks.md", **values) + "\n"
 
 
 def _preset(config: Config, pair: "StereoPair", rows: int) -> dict[str, float]:

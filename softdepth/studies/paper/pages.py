@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import groupby
+from typing import Any
 
 from rich.table import Table
 
@@ -87,25 +88,30 @@ def findings(document: Document) -> list[str]:
     return lines
 
 
-def markdown(document: Document, level: int = 2) -> str:
-    """The whole evaluation; its headings start at `level`."""
-    return render(
-        "softdepth.studies",
-        "paper.md",
-        mark="#" * level,
-        findings=findings(document),
-        columns=list(COLUMNS),
-        table2=[[r.scene.capitalize(), r.method, operator(r.operator), *figures(r)] for r in document.table2],
-        one_view=[
+def tables(document: Document) -> dict[str, Any]:
+    """What the evaluation's pages, in Markdown and HTML, both show."""
+    return {
+        "findings": findings(document),
+        "columns": list(COLUMNS),
+        "table2": [
+            [r.scene.capitalize(), r.method, operator(r.operator), *figures(r)] for r in document.table2
+        ],
+        "one_view": [
             [r.scene.capitalize(), r.method, figure(r.float), figure(r.fixed)] for r in document.one_view
         ],
-        readings=reading_rows(document),
-        metrics_text=METRICS_TEXT,
-        metrics=[score_row(s) for s in document.metrics if s.engine == "float"],
-        opencv=document.opencv,
-        speed_text=speed_text(document.speed),
-        speed=speed_rows(document.speed),
-    )
+        "readings": reading_rows(document),
+        "metrics_text": METRICS_TEXT,
+        "opencv": document.opencv,
+        "speed_text": speed_text(document.speed),
+        "speed": speed_rows(document.speed),
+    }
+
+
+def markdown(document: Document, level: int = 2) -> str:
+    """The whole evaluation; its headings start at `level`."""
+    metrics = [score_row(s) for s in document.metrics if s.engine == "float"]
+    values = tables(document)
+    return render("softdepth.studies", "paper.md", mark="#" * level, metrics=metrics, **values)
 
 
 def score_row(score: Score) -> list[str]:

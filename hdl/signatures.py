@@ -54,7 +54,7 @@ def result_layout(config: Config) -> data.StructLayout:
     )
 
 
-STEERING = ("hold", "skip", "clear")
+STEERING = ("hold", "skip", "clear", "forget")
 """Of the settings, what the first room looks at."""
 
 
@@ -62,8 +62,8 @@ def settings_layout(config: Config) -> data.StructLayout:
     """What a core that takes settings is told while it runs; thresholds where the configuration has them.
 
     ``hold``: no frame begins: its first pixel waits. ``skip``: frames that begin are dropped whole.
-    ``clear``: the counters of broken input begin at 0. The others are `Post`'s, and may change while no
-    frame is inside.
+    ``clear``: the counters of broken input begin at 0. ``forget``: nothing is known any more of how the
+    source ends its frames. The others are `Post`'s, and may change while no frame is inside.
     """
     post = config.post
     return data.StructLayout(

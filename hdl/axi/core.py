@@ -133,12 +133,16 @@ class AxiCore(wiring.Component):
         fields = [f for r in self._registers if r.takeover for f in r.fields]
         layout = data.StructLayout({f.name: f.width for f in fields})
         applied = Signal(layout, init={f.name: f.reset for f in fields})
-        pending = Signal()
+        pending, taken = Signal(), Signal()
         m.d.comb += [self._core.settings.hold.eq(pending), bank.given.status_pending.eq(pending)]
         with m.If(bank.takeover):
             m.d.sync += pending.eq(1)
         with m.Elif(pending & ~frames.busy):
+            m.d.comb += taken.eq(1)
             m.d.sync += [pending.eq(0), *(applied[f.name].eq(held[f.name]) for f in fields)]
+        # A height that is set makes the core one whose frames' ends are marked, until it is no longer set.
+        no_longer = applied.geometry_height.any() & ~held.geometry_height.any()
+        m.d.comb += self._core.settings.forget.eq(taken & no_longer)
         return applied
 
     def _give(self, m: Module, applied: data.View, frames: Frames) -> None:

@@ -6,7 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.front.fault_counters import FaultCounters
 from softdepth.hdl.front.height_learner import HeightLearner
-from softdepth.hdl.signatures import Faults, Status, pair_layout
+from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
 
@@ -64,6 +64,7 @@ class FrameGuard(wiring.Component):
     hold : no frame begins: its first pixel waits, and ends the frame before as it does otherwise.
     skip : a frame that begins is dropped whole, and nobody counts it.
     clear : the counters begin at 0.
+    forget : as of `HeightLearner`.
     faults : what was met in the clock before.
     status : counters of what was mended.
     """
@@ -74,7 +75,7 @@ class FrameGuard(wiring.Component):
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(item_layout(config))),
-                **{name: In(1) for name in ("hold", "skip", "clear")},
+                **{name: In(1) for name in STEERING},
                 "faults": Out(Faults),
                 "status": Out(Status),
             }
@@ -90,6 +91,7 @@ class FrameGuard(wiring.Component):
             self.status.eq(counters.status),
             self.faults.eq(counters.met),
             counters.clear.eq(self.clear),
+            learner.forget.eq(self.forget),
         ]
 
         starts = Signal()

@@ -27,7 +27,7 @@ class Front(wiring.Component):
     -------
     i : stream of `pair_layout(config.pixel)`.
     o : stream of `layout`: `item_layout` of whole frames, or the raster of `Descriptors`.
-    hold, skip, clear, faults, status : as of `FrameGuard`.
+    hold, skip, clear, forget, faults, status : as of `FrameGuard`.
     """
 
     latency = ItemQueue.latency

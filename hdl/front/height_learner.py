@@ -15,7 +15,8 @@ class HeightLearner(wiring.Component):
 
     It begins ``UNKNOWN``, and nothing but frames that are whole can change that. Two of them in a row that
     are equally high and bear no end mark make the source one of known ``HEIGHT``: its frames end with
-    their last line. An end mark, wherever it stands, makes it one that ``MARKS`` its ends, until reset.
+    their last line. An end mark, wherever it stands, makes it one that ``MARKS`` its
+    ends, until reset, or `forget`.
 
     A known height changes when three whole frames in a row agree on a lower one. It is forgotten when
     lines follow its last, which a taller frame has and which are lost. Whole multiples of the height are
@@ -28,6 +29,7 @@ class HeightLearner(wiring.Component):
     whole : a frame without fault has ended by the next frame's start, which is taken later.
     dropped : a line has ended that belongs to no frame.
     mark : an end mark is taken, wherever it stands.
+    forget : no frame is open, and what was learnt is void: as after reset.
     is_last : the running line is the last of the known height, `REPORT_CLOCKS` after it began.
     is_lowest : the running line is the last that ``max_height`` allows, as soon.
     knows_end : frames of this source end by marks or by height, and not by the next frame's start.
@@ -35,7 +37,7 @@ class HeightLearner(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        inputs = ("frame", "line", "whole", "dropped", "mark")
+        inputs = ("frame", "line", "whole", "dropped", "mark", "forget")
         outputs = ("is_last", "is_lowest", "knows_end")
         super().__init__({**{name: In(1) for name in inputs}, **{name: Out(1) for name in outputs}})
 
@@ -76,6 +78,8 @@ class HeightLearner(wiring.Component):
 
         overran = Signal()  # lines followed this frame's last
         overran_before = Signal()
+        with m.If(self.forget):
+            m.d.sync += [streak.eq(0), was_whole.eq(0), overran.eq(0), overran_before.eq(0)]
         with m.FSM(name="ends") as ends:
             with m.State("UNKNOWN"):
                 with m.If(whole & agrees):
@@ -96,8 +100,10 @@ class HeightLearner(wiring.Component):
                         m.next = "UNKNOWN"
                 with m.If(mark):
                     m.next = "MARKS"
-            with m.State("MARKS"):
-                pass
+                with m.If(self.forget):
+                    m.next = "UNKNOWN"
+            with m.State("MARKS"), m.If(self.forget):
+                m.next = "UNKNOWN"
             m.d.comb += self.knows_end.eq(~ends.ongoing("UNKNOWN"))
             knows_height = ends.ongoing("HEIGHT")
 

@@ -73,6 +73,23 @@ def test_a_height_that_is_set_ends_the_first_frame(tmp_path: Path) -> None:
     assert out.registers["STATUS"] == 0
 
 
+def test_a_height_that_is_no_longer_set_is_learnt(tmp_path: Path) -> None:
+    """Frames then end with the next one's start, and are whole; two that are equally high tell the end."""
+    heights = [7, 4, 5, 5, 5]
+    pairs = [textured(height, 12, number) for number, height in enumerate(heights)]
+    steps = Steps()
+    steps.write("GEOMETRY", heights[0] << 16)
+    steps.lines(*pairs[0], range(heights[0]))
+    steps.write("GEOMETRY", 0)
+    for number in range(1, len(heights)):
+        steps.lines(*pairs[number], range(heights[number]))
+    out = run(steps, tmp_path)
+    assert len(out.frames) == len(heights)
+    for got, (left, right) in zip(out.frames, pairs, strict=True):
+        assert np.array_equal(got, expected(left, right))
+    assert out.registers["FLAGS"] == 1
+
+
 @pytest.mark.parametrize("seed", [1, 3, 5, 7])
 def test_broken_video(seed: int, tmp_path: Path) -> None:
     """The table of docs/gateware.md, in which a source without ``eof`` can break."""

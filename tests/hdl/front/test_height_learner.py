@@ -13,16 +13,17 @@ from tests.support.simulation import config, sad, simulate
 
 MAX_HEIGHT = 8
 CONFIG = config(cost="sad", criteria=[sad(3)], disparities=4, lanes=2, max_height=MAX_HEIGHT)
-INPUTS = ("frame", "line", "whole", "dropped", "mark")
+INPUTS = ("frame", "line", "whole", "dropped", "mark", "forget")
 
 
 class Sent(NamedTuple):
-    """A frame: its lines, those that follow its end, and whether it is whole, and marked."""
+    """A frame: its lines, those that follow its end, whether it is whole, marked, and forgotten at last."""
 
     height: int
     dropped: int = 0
     whole: bool = True
     mark: bool = False
+    forget: bool = False
 
 
 class Said(NamedTuple):
@@ -60,6 +61,8 @@ def said(sent: Sequence[Sent]) -> list[Said]:
                 await clock(ctx, "dropped")
             if frame.whole and not frame.mark and last is None:  # else no start is needed to end it
                 await clock(ctx, "whole")
+            if frame.forget:
+                await clock(ctx, "forget")
             found.append(Said(last, knows_end))
 
     simulate(dut, bench)
@@ -109,6 +112,18 @@ CASES: dict[str, tuple[list[Sent], list[Said]]] = {
     "twice as high": (
         [Sent(3), Sent(3), Sent(3, dropped=3), Sent(3, dropped=3), Sent(6), Sent(6), Sent(6)],
         [UNKNOWN] * 2 + [known(3)] * 2 + [UNKNOWN] * 2 + [known(6)],
+    ),
+    "a mark that is forgotten": (
+        [Sent(3, mark=True), Sent(3), Sent(3, forget=True), Sent(2), Sent(2), Sent(2)],
+        [UNKNOWN, MARKS, MARKS, UNKNOWN, UNKNOWN, known(2)],
+    ),
+    "a height that is forgotten, and learnt from two more": (
+        [Sent(3), Sent(3), Sent(3, forget=True), Sent(3), Sent(3), Sent(3)],
+        [UNKNOWN] * 2 + [known(3), UNKNOWN, UNKNOWN, known(3)],
+    ),
+    "a frame that is forgotten before it has taught": (
+        [Sent(3, forget=True), Sent(3), Sent(3), Sent(3)],
+        [UNKNOWN] * 3 + [known(3)],
     ),
     "a taller frame, then as before": (
         [Sent(2), Sent(2), Sent(2, dropped=1), Sent(2), Sent(2), Sent(2)],

@@ -17,7 +17,6 @@ from pathlib import Path
 import cv2
 import netpbmfile
 import numpy as np
-import tifffile
 from PIL import Image
 
 from softdepth.golden.data.inputs import read_bytes, title
@@ -135,6 +134,8 @@ def _probe(data: bytes, path: str | Path) -> _Header:
 
 def _probe_tiff(data: bytes) -> _Header:
     """The same of a TIFF, with its bits a sample and its white: Pillow does not know all kinds."""
+    import tifffile  # where a file is one: it takes longer to load than most images do
+
     logging.getLogger("tifffile").disabled = True  # what it has to say about damaged tags
     with tifffile.TiffFile(io.BytesIO(data)) as file:
         page = file.pages.first

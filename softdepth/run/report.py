@@ -137,7 +137,7 @@ def scored(truth: "Truth | None", config: Config) -> Scored | None:
 def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measurement, report: Report) -> None:
     """Write the maps, the pictures, the configuration and the report of a run into `folder`."""
     from softdepth.golden.data import writers
-    from softdepth.golden.score import pictures
+    from softdepth.golden.score import figures, pictures
 
     result = measurement.result
     disparity, code, valid = result.pixels, result.code, result.given
@@ -148,11 +148,11 @@ def write(folder: Path, pair: "StereoPair", config: Config, measurement: Measure
     writers.write_picture(folder / "colour.png", coloured)
     write_atomically(folder / "code.png", pictures.code_picture(code))
     shown = pair.as_format("rgb8")
-    overview = pictures.triptych(shown.left, shown.right, disparity, valid, high, minimum=low, code=code)
+    overview = figures.triptych(shown.left, shown.right, disparity, valid, high, minimum=low, code=code)
     write_atomically(folder / "overview.png", overview)
     if pair.truth is not None:
         errors = pictures.error_picture(disparity, pair.truth, valid)
-        write_atomically(folder / "error.png", pictures.error_figure(errors))
+        write_atomically(folder / "error.png", figures.error_figure(errors))
     config.save(folder / "config.toml")
     (folder / "report.json").write_text(json.dumps(report.model_dump(), indent=2) + "\n")
 

@@ -27,7 +27,7 @@ PERMITTED: dict[str, set[str]] = {
     "board": {"golden", "spec"},
     "run": {"board", "golden", "sim", "spec", *BASE},
     "sequence": {"board", "metric", "rig", "run", "golden", "sim", "spec", *BASE},
-    "studies": {"export", "inspect", "run", "sim", "flow", "golden", "hdl", "spec", *BASE},
+    "studies": {"export", "inspect", "run", "sequence", "sim", "flow", "golden", "hdl", "spec", *BASE},
     "caches": set(),
     "ending": {"caches", "spec", "softdepth"},
     "files": {"spec"},
@@ -91,12 +91,20 @@ def test_the_models_do_not_know_amaranth():
         assert not any(name.partition(".")[0] == "amaranth" for name in imported_names(path)), path.name
 
 
-def test_the_tools_do_not_load_the_simulator():
-    script = "import sys, softdepth.flow.tools; print(*sys.modules)"
+@pytest.mark.parametrize(
+    ("module", "spared"),
+    [
+        ("softdepth.flow.tools", {"cocotb", "cocotb_tools", "amaranth", "numpy"}),
+        # every process of a sequence would wait for them, longer than for a small frame
+        ("softdepth.sequence.work", {"matplotlib", "tifffile", "plotly", "amaranth", "cocotb"}),
+    ],
+)
+def test_what_need_not_be_loaded_is_not(module, spared):
+    script = f"import sys, {module}; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     loaded = {name.partition(".")[0] for name in done.stdout.split()}
     assert "softdepth" in loaded
-    assert not loaded & {"cocotb", "cocotb_tools", "amaranth", "numpy"}
+    assert not loaded & spared
 
 
 def test_every_package_is_declared(project):

@@ -10,7 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from softdepth.golden.maps import DisparityMap
-from softdepth.golden.score.pictures import INCHES, NO_RESULT, colour, colour_range, side_by_side
+from softdepth.golden.score.figures import INCHES, side_by_side
+from softdepth.golden.score.pictures import NO_RESULT, colour, colour_range
 from softdepth.studies.compare.sweep import Point, Sweep
 
 Rgb = tuple[int, int, int]

@@ -1,0 +1,26 @@
+"""The benchmarks: what is measured, and that the page says what the figures do."""
+
+from types import SimpleNamespace
+
+from softdepth.golden.data.synthetic import generate
+from softdepth.studies import benchmarks
+
+
+def test_the_page_holds_what_was_measured(monkeypatch):
+    simulated = []
+
+    def run_frames(config, frames, progress):
+        simulated.append((config.name, frames[0][0].shape[:2], config.max_width))
+        return SimpleNamespace(cycles_per_pixel=4.125, pixels_per_second=1234.5)
+
+    monkeypatch.setattr(benchmarks, "run_frames", run_frames)
+    pair = generate("random", width=48, height=32, disparities=8, seed=1)
+    figures = benchmarks.measured(pair, 30, 2, ["sad", "robust"], [1])
+    assert simulated == [("sad", (30, 48), 48), ("robust", (30, 48), 48)]
+    assert figures["presets"]["robust"]["fixed_seconds"] > 0
+    assert figures["sequence"].keys() == {"preset", "frames", "seconds"}
+    assert figures["sequence"]["seconds"]["1"] > 0
+    figures["sequence"] = {"preset": "paper", "frames": 6, "seconds": {"1": 3.0, "2": 2.0}}
+    page = benchmarks.page(figures)
+    assert "| 2 | 2.0 | 3.00 | 1.50 |" in page
+    assert "| sad | 64 | 16 | 4.125 | 1,234 |" in page

@@ -19,6 +19,21 @@ if TYPE_CHECKING:
     from softdepth.golden.data.pair import StereoPair
 
 
+TruthScale = Annotated[
+    float | None, typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity.")
+]
+Bits = Annotated[
+    int | None,
+    typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
+]
+SideBySide = Annotated[
+    bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
+]
+TopBottom = Annotated[
+    bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
+]
+
+
 @dataclass(frozen=True)
 class Source:
     """Where a stereo pair comes from, and what is known of it."""
@@ -39,19 +54,10 @@ class Source:
             help="Known disparity of the reference view: PFM, NPY, float TIFF or gray PNG.",
         ),
     ] = None
-    truth_scale: Annotated[
-        float | None, typer.Option("--gt-scale", metavar="N", help="File units per pixel of disparity.")
-    ] = None
-    bits: Annotated[
-        int | None,
-        typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
-    ] = None
-    side_by_side: Annotated[
-        bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
-    ] = False
-    top_bottom: Annotated[
-        bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
-    ] = False
+    truth_scale: TruthScale = None
+    bits: Bits = None
+    side_by_side: SideBySide = False
+    top_bottom: TopBottom = False
 
     @property
     def is_sequence(self) -> bool:
@@ -63,9 +69,7 @@ class Source:
     @property
     def joined(self) -> "Joined | None":
         """How both views lie in one file, if they do; raises `InputError` for two answers."""
-        if self.side_by_side and self.top_bottom:
-            raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
-        return "side-by-side" if self.side_by_side else "top-bottom" if self.top_bottom else None
+        return joined(self.side_by_side, self.top_bottom)
 
     def keep_safe(self, output: Path, names: Iterable[str], *others: Path | None) -> None:
         """Raise `InputError` where a file of `names` in `output` is one of the pair's, or of the others."""
@@ -80,13 +84,13 @@ class Source:
         scale, truth = self.truth_scale, self.truth
         if scale is not None and truth is None:
             raise InputError(f"--gt-scale {scale:g} without --gt", "name the ground truth it belongs to")
-        joined = self.joined
+        layout = self.joined
         if self.dataset is None:
             if self.is_sequence:
                 raise InputError(
                     f"'{self.left}' and '{self.right}' are not two images", "use softdepth sequence for more"
                 )
-            pair = _images(self.left, self.right, joined, self.bits)
+            pair = _images(self.left, self.right, layout, self.bits)
             if truth is not None:
                 pair = _with_truth(pair, (self.left, self.right), truth, scale, config)
         elif self.left or truth or self.bits is not None or self.side_by_side or self.top_bottom:
@@ -121,14 +125,21 @@ class Source:
         return pair, fitted
 
 
-def _images(left: Path | None, right: Path | None, joined: "Joined | None", bits: int | None) -> "StereoPair":
+def joined(side_by_side: bool, top_bottom: bool) -> "Joined | None":
+    """How both views lie in one file, if they do; raises `InputError` for two answers."""
+    if side_by_side and top_bottom:
+        raise InputError("--side-by-side and --top-bottom contradict each other", "give one of the two")
+    return "side-by-side" if side_by_side else "top-bottom" if top_bottom else None
+
+
+def _images(left: Path | None, right: Path | None, layout: "Joined | None", bits: int | None) -> "StereoPair":
     from softdepth.golden.data.images import read_joined, read_pair
 
-    if joined is not None:
+    if layout is not None:
         if left is None or right is not None:
             count = 2 if right else 0
-            raise InputError(f"--{joined} takes one file with both views, {count} given", "name that file")
-        return read_joined(left, joined, bits=bits)
+            raise InputError(f"--{layout} takes one file with both views, {count} given", "name that file")
+        return read_joined(left, layout, bits=bits)
     if left is None or right is None:
         raise InputError(
             f"a pair is two images, {1 if left else 0} given",

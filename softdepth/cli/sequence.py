@@ -35,19 +35,10 @@ def sequence(
         Path | None,
         typer.Option("--gt", metavar="DIR", help="Known disparities, a file a frame: a folder or a pattern."),
     ] = None,
-    truth_scale: Annotated[
-        float | None, typer.Option("--gt-scale", metavar="N", help="Their file units per pixel of disparity.")
-    ] = None,
-    bits: Annotated[
-        int | None,
-        typer.Option("--bits", metavar="N", help="Bits a channel in the image files, where they hold fewer."),
-    ] = None,
-    side_by_side: Annotated[
-        bool, typer.Option("--side-by-side", help="LEFT holds both views: left half and right half.")
-    ] = False,
-    top_bottom: Annotated[
-        bool, typer.Option("--top-bottom", help="LEFT holds both views: the left one above the right one.")
-    ] = False,
+    truth_scale: pairs.TruthScale = None,
+    bits: pairs.Bits = None,
+    side_by_side: pairs.SideBySide = False,
+    top_bottom: pairs.TopBottom = False,
     rigs_raw: Annotated[
         bool, typer.Option("--raw", help="Rigs are raw: rectify each by the calibration in its folder.")
     ] = False,
@@ -65,8 +56,8 @@ def sequence(
     from softdepth.processes import cores
 
     kept.choice()
-    views = pairs.Source(side_by_side=side_by_side, top_bottom=top_bottom)
-    given = sequences.Given(left, right, views.joined, bits, truth, truth_scale)
+    joined = pairs.joined(side_by_side, top_bottom)
+    given = sequences.Given(left, right, joined, bits, truth, truth_scale)
     how = sequences.How(engine, processes or cores(), fps)
     if right is not None or given.joined is not None or not left.is_dir():
         if rigs_raw:

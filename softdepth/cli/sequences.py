@@ -112,6 +112,8 @@ def prepare(
     first = checked.first.as_format(chosen.pixel)
     for text in first.notes:
         screen.note(f"note: {text}")
+    if checked.missing:
+        screen.note(f"warning: {checked.missing}: the results will be of these alone")
     if config is None and choice is not None:
         keys = [key for key in measure.LIMITS if not choice.sets(key)]
         chosen = measure.as_large_as(first, chosen, keys)
@@ -157,11 +159,13 @@ def run(ready: Ready, how: How) -> int:
         calibrations.write(output, ready.rectifier, checked.first)
     ready.recipe.config.save(output / "config.toml")
     rate = how.rate or ready.source.frames.rate or DEFAULT_RATE
-    video.write(output / PREVIEW, preview.shown(ready.source.pairs(), records, folder), rate)
+    video.write(output / PREVIEW, preview.shown(records, folder), rate)
     name = ready.plan.name or ready.plan.given.left.name
-    summary = table.summary(name, ready.recipe, records, seconds)
+    summary = table.summary(name, ready.recipe, records, seconds, checked.missing)
     table.write(output, summary, records)
     _show(summary, records, name)
+    if checked.missing:
+        screen.note(f"warning: {checked.missing}; the rest is not in these results")
     print(f"results: {output}")
     return summary["mismatches"] or 0
 

@@ -26,8 +26,10 @@ from softdepth.sources import sources_hash
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
 
-SCHEMA = 1
+SCHEMA = 2
 REPORT = "frame.json"
+LEFT = "left.png"
+"""The left view in 8 bits, as the core saw it: depth and points lie on its pixels."""
 
 Engine = Literal["rtl", "fixed", "board"]
 
@@ -176,8 +178,9 @@ def write(place: Path, recipe: Recipe, pair: StereoPair, found: DisparityMap) ->
     write_atomically(place / "code.png", pictures.code_picture(found.code))
     coloured = pictures.colour(pixels, given, high, minimum=low, code=found.code)
     writers.write_picture(place / "colour.png", coloured)
+    image = pair.as_format("rgb8").left
+    writers.write_picture(place / LEFT, image)
     if recipe.geometry is not None:
-        image = pair.as_format("rgb8").left
         scene = Scene.of(
             recipe.geometry, pixels, found.code, found.confidence, choice=recipe.choice, image=image
         )

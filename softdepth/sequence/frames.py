@@ -145,12 +145,14 @@ class Checked:
     first : the first pair.
     bits : a channel, for all frames alike; None where the files say it.
     notes : of the first frame, and of others how many have some of their own.
+    missing : what the sequence should hold and does not, if there is such: a video that breaks off.
     """
 
     names: tuple[str, ...]
     first: StereoPair
     bits: int | None
     notes: tuple[str, ...]
+    missing: str = ""
 
 
 def find(left: Path, right: Path | None, joined: Joined | None) -> Frames:
@@ -208,9 +210,10 @@ def checked(frames: Frames, bits: int | None, progress: Callable[[int], None] = 
         bits = max(depths)
         notes += (f"all frames are read with {bits} bits, which the brightest needs",)
         first = next(iter(frames.read(bits)))
-    if len(found) != frames.expected:
-        notes += (f"the video says that it has {frames.expected} frames, {len(found)} can be read",)
-    return Checked(tuple(found), replace(first, notes=notes), bits, notes)
+    missing = ""
+    if len(found) < frames.expected:
+        missing = f"'{frames.files[0]}' says that it has {frames.expected} frames, {len(found)} can be read"
+    return Checked(tuple(found), replace(first, notes=notes), bits, notes, missing)
 
 
 def _a(kind: names.Kind) -> str:

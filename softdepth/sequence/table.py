@@ -10,6 +10,7 @@ from typing import Any
 
 from softdepth.files import write_atomically
 from softdepth.sequence.frame import Recipe, Record
+from softdepth.templates import render
 
 CSV, MARKDOWN, SUMMARY = "frames.csv", "frames.md", "sequence.json"
 
@@ -66,27 +67,30 @@ def as_csv(records: list[Record]) -> str:
     return file.getvalue()
 
 
-def as_markdown(records: list[Record]) -> str:
-    """The same as a Markdown table, with the mean in its last row."""
+def as_markdown(records: list[Record], missing: str = "") -> str:
+    """The same as a Markdown table, with the mean in its last row; `missing` is said below it."""
     shown = columns(records)
-    lines = [
-        "| " + " | ".join(column.title for column in shown) + " |",
-        "|" + "|".join("---" if column.decimals is None else "---:" for column in shown) + "|",
+    rows = [
+        *([_text(column, column.value(record)) for column in shown] for record in records),
+        [_text(column, _mean(column, records)) for column in shown],
     ]
-    for record in records:
-        lines.append("| " + " | ".join(_text(column, column.value(record)) for column in shown) + " |")
-    lines.append("| " + " | ".join(_text(column, _mean(column, records)) for column in shown) + " |")
-    return "\n".join(lines) + "\n"
+    return render("softdepth.sequence", "frames.md", columns=shown, rows=rows, missing=missing) + "\n"
 
 
-def summary(name: str, recipe: Recipe, records: list[Record], seconds: float) -> dict[str, Any]:
-    """``sequence.json``: means over the frames, and what was computed in this run, in how long."""
+def summary(
+    name: str, recipe: Recipe, records: list[Record], seconds: float, missing: str = ""
+) -> dict[str, Any]:
+    """``sequence.json``: means over the frames, and what was computed in this run, in how long.
+
+    `missing` says what the sequence lacks of what it should hold, if it does.
+    """
     computed = [record for record in records if not record.kept]
     return {
         "schema_version": 1,
         "sequence": name,
         "engine": recipe.engine,
         "frames": len(records),
+        "missing": missing or None,
         "computed": len(computed),
         "seconds": seconds,
         "frames_per_second": len(computed) / seconds if computed else None,
@@ -103,7 +107,7 @@ def summary(name: str, recipe: Recipe, records: list[Record], seconds: float) ->
 def write(folder: Path, found: dict[str, Any], records: list[Record]) -> None:
     """Write the tables and the summary into a sequence's folder, the summary last."""
     write_atomically(folder / CSV, as_csv(records).encode())
-    write_atomically(folder / MARKDOWN, as_markdown(records).encode())
+    write_atomically(folder / MARKDOWN, as_markdown(records, found["missing"] or "").encode())
     write_atomically(folder / SUMMARY, (json.dumps(found, indent=2) + "\n").encode())
 
 

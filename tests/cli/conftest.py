@@ -1,5 +1,6 @@
 """A pair on disk, and the command line as a function."""
 
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ from softdepth.golden.data.images import read_image
 from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.writers import write_pfm, write_picture
+from tests.cli.recording import record
 
 
 @dataclass(frozen=True)
@@ -90,3 +92,18 @@ class Files:
 def files(tmp_path: Path) -> Files:
     """A 48x30 scene with disparities below 16."""
     return Files.written(generate("random", width=48, height=30, disparities=16, seed=3), tmp_path / "input")
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recorded sequence with its truth: ``left``, ``right`` and ``truth``."""
+    folder = tmp_path_factory.mktemp("recorded")
+    record(folder)
+    return folder
+
+
+@pytest.fixture
+def scene(recorded: Path, tmp_path: Path) -> Path:
+    """A copy of it, to spoil."""
+    shutil.copytree(recorded, tmp_path / "in")
+    return tmp_path / "in"

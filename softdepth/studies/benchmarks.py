@@ -78,6 +78,7 @@ def machine() -> dict[str, str | int]:
 
 def of_preset(config: Config, pair: StereoPair, rows: int) -> dict[str, float]:
     """A configuration's simulated gateware on the first rows of a pair, and its models on the whole."""
+    pair = pair.as_format(config.pixel)
     crop = replace(pair, left=pair.left[:rows], right=pair.right[:rows], truth=None)
     config = measure.as_large_as(crop, config)
     measure.check_fits(crop, config)
@@ -99,6 +100,7 @@ def of_sequence(config: Config, pair: StereoPair, frames: int, processes: Iterab
 
     Everything is in them that a user waits for: processes that begin, models, files.
     """
+    pair = pair.as_format(config.pixel)
     config = measure.as_large_as(pair, config)
     names = tuple(f"{number:04}" for number in range(frames))
 

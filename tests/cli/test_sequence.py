@@ -125,3 +125,29 @@ def test_raw_frames_are_rectified_as_a_pair_is(softdepth, tmp_path):
         expected = (tmp_path / "run" / "calibration.yml").read_bytes()
         assert (tmp_path / name / "calibration.yml").read_bytes() == expected
     assert "say --raw" in softdepth("sequence", robot, *SMALL, "-o", tmp_path / "none").error
+
+
+def test_what_a_video_still_holds_that_breaks_off_is_computed_and_marked(softdepth, tmp_path):
+    rng = np.random.default_rng(1)
+    frames = [rng.integers(0, 256, (30, 96, 3), np.uint8) for _ in range(12)]
+    video.write(tmp_path / "whole.webm", frames, 25)
+    whole = (tmp_path / "whole.webm").read_bytes()
+    (tmp_path / "cut.webm").write_bytes(whole[: len(whole) * 6 // 10])
+    for name, is_cut in (("cut", True), ("whole", False)):
+        out = tmp_path / name
+        outcome = softdepth("sequence", tmp_path / f"{name}.webm", "--side-by-side", *SMALL, "-o", out)
+        assert outcome.code == 0, outcome.err
+        warnings = [line for line in outcome.err.splitlines() if line.startswith("warning: ")]
+        summary = json.loads((out / "sequence.json").read_text())
+        table = (out / "frames.md").read_text()
+        if is_cut:
+            assert 1 < summary["frames"] < 12
+            said = f"cut.webm' says that it has 12 frames, {summary['frames']} can be read"
+            assert said in summary["missing"]
+            assert table.endswith(f"\nNot whole: {summary['missing']}.\n")
+            assert len(warnings) == 2, "before the work and after it"
+            assert all(said in each for each in warnings)
+        else:
+            assert (summary["frames"], summary["missing"], warnings) == (12, None, [])
+            assert "Not whole" not in table
+        assert len(list(video.Video.opened(out / "preview.webm").read())) == summary["frames"]

@@ -10,10 +10,12 @@ import time
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.truth import read_truth
 from softdepth.golden.data.writers import write_picture
+from softdepth.spec.config import Config
 from tests.cli.recording import METRES, NAMES, SMALL, expected
 
 
@@ -104,3 +106,24 @@ def test_the_simulated_gateware_runs_in_one_session_and_goes_on(softdepth, scene
     assert softdepth(*command).code == 0
     assert (out / "frames" / "f9").stat().st_mtime_ns == before
     assert json.loads((out / "sequence.json").read_text())["computed"] == 1
+
+
+@pytest.mark.slow
+def test_robust_keeps_its_state_between_the_frames_of_a_sequence(softdepth, scene, tmp_path):
+    """With every stage of post and a right winner; frame by frame as the fixed model gives it."""
+    out = tmp_path / "out"
+    overrides = ["disparities=8", "lanes=4", "max_width=64", "max_height=64"]
+    config = Config.preset("robust").override(overrides)
+    sets = [word for each in overrides for word in ("--set", each)]
+    command = ("sequence", scene / "left", scene / "right", "--preset", "robust", *sets, "--engine", "rtl")
+    outcome = softdepth(*command, "--processes", 1, "-o", out)
+    assert outcome.code == 0, outcome.err
+    assert "gateware against fixed model: 0 mismatches" in outcome.out
+    for name in NAMES:
+        place, model = (
+            out / "frames" / name,
+            expected(scene, name, config),
+        )
+        written = read_truth(place / "disparity.pfm").disparity
+        np.testing.assert_array_equal(np.nan_to_num(written), model.pixels * model.given)
+        np.testing.assert_array_equal(np.array(Image.open(place / "code.png")), model.code)

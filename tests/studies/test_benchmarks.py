@@ -15,9 +15,9 @@ def test_the_page_holds_what_was_measured(monkeypatch):
 
     monkeypatch.setattr(benchmarks, "run_frames", run_frames)
     pair = generate("random", width=48, height=32, disparities=8, seed=1)
-    figures = benchmarks.measured(pair, 30, 2, ["sad", "robust"], [1])
-    assert simulated == [("sad", (30, 48), 48), ("robust", (30, 48), 48)]
-    assert figures["presets"]["robust"]["fixed_seconds"] > 0
+    figures = benchmarks.measured(pair, 30, 2, ["sad", "robust-gray"], [1])
+    assert simulated == [("sad", (30, 48), 48), ("robust-gray", (30, 48), 48)]
+    assert figures["presets"]["robust-gray"]["fixed_seconds"] > 0
     assert figures["sequence"].keys() == {"preset", "frames", "seconds"}
     assert figures["sequence"]["seconds"]["1"] > 0
     figures["sequence"] = {"preset": "paper", "frames": 6, "seconds": {"1": 3.0, "2": 2.0}}

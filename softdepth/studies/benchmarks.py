@@ -58,7 +58,25 @@ def measured(
 
 def page(figures: dict[str, Any]) -> str:
     """The figures as a Markdown page."""
-    return render("softdepth.studies", "benchmarks.md", window=BM_WINDOW, **figures) + "\n"
+    rows = [
+        [
+            name,
+            found["disparities"],
+            found["lanes"],
+            f"{found['cycles_per_pixel']:.3f}",
+            f"{found['sim_pixels_per_second']:,.0f}",
+            f"{found['fixed_seconds']:.2f}",
+            f"{found['float_seconds']:.2f}",
+        ]
+        for name, found in figures["presets"].items()
+    ]
+    frames, waited = figures["sequence"]["frames"], figures["sequence"]["seconds"]
+    processes = [
+        [count, f"{seconds:.1f}", f"{frames / seconds:.2f}", f"{waited['1'] / seconds:.2f}"]
+        for count, seconds in waited.items()
+    ]
+    values = {**figures, "rows": rows, "processes": processes, "bm_window": BM_WINDOW}
+    return render("softdepth.studies", "benchmarks.md", **values) + "\n"
 
 
 def machine() -> dict[str, str | int]:

@@ -22,6 +22,9 @@ def utilization(
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="The rows of eight lanes with MEAN only.")] = False,
+    families: Annotated[
+        bool, typer.Option("--families", help="Other families only, by synthesis alone: minutes.")
+    ] = False,
     disparities: Annotated[
         int, typer.Option("--disparities", metavar="N", help="Candidates per pixel.")
     ] = 64,
@@ -34,17 +37,33 @@ def utilization(
 ) -> None:
     """Synthesise, place and route cores for an LFE5U-85F and write down area and speed.
 
-    With --row or --quick, the page's other rows stay as they are. A netlist that was placed and routed before
-    is not again: its figures are taken from the page that is renewed, or from the cache.
+    With --row, --quick or --families, the page's other rows stay as they are. A netlist that was placed and
+    routed before is not again: its figures are taken from the page that is renewed, or from the cache.
     """
-    from softdepth.studies import utilization, utilization_page
+    from softdepth.studies import other_families, utilization, utilization_page
 
+    if families and (row or quick):
+        raise InputError(
+            "--families is of other rows than --row and --quick", "ask for one of them at a time"
+        )
     usual = utilization_page.QUICK if quick else utilization_page.RECOMMENDED
     rows = [_selection(text, seed) for text in row or ()] or [(each, seed) for each in usual]
     configs = [each.config(disparities, width) for each, _ in rows]  # all are sound before the first is built
     if not output.is_dir():
         raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")
     known = utilization_page.load(output)
+    if families and not known:
+        raise InputError(
+            f"'{output}' has no utilization.json to renew the page of", "leave out --families first"
+        )
+    if not (row or quick):
+        of_families = other_families.load(output)
+        found_there = other_families.measure_all(known=of_families, disparities=disparities, width=width)
+        other_families.write(output, found_there)
+    if families:
+        utilization_page.write(output, known)
+        print(f"results: {output / 'utilization.md'}, {output / other_families.JSON}")
+        return
     found = []
     for number, ((each, its_seed), config) in enumerate(zip(rows, configs, strict=True), start=1):
         screen.note(f"row {number} of {len(rows)}: {each}")

@@ -7,6 +7,7 @@ from pathlib import Path
 from peakrdl_cheader.exporter import CHeaderExporter
 from peakrdl_markdown import MarkdownExporter
 
+from softdepth.export.bench import bench
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
@@ -18,13 +19,16 @@ from softdepth.templates import render
 REGISTERS = "registers.rdl"
 HEADER = "registers.h"
 PAGE = "registers.md"
+PERIOD = 10.0
+"""Of the clock in the constraints, in nanoseconds: a figure to begin with."""
 
 
 def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
     """The files of the package by their names.
 
-    Verilog; the registers in SystemRDL, as a C header and as a page; instantiations in Verilog and VHDL; and
-    a FuseSoC core, whose target ``lint`` has Verilator read it.
+    Verilog; a bench with what it sends and compares; the registers in SystemRDL, as a C header and as a
+    page; instantiations in Verilog and VHDL; constraints; and a FuseSoC core, whose target ``lint`` has
+    Verilator read it, and ``sim`` run the bench.
     """
     core = AxiCore(config, bus)
     ports = [
@@ -38,6 +42,8 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
         "ports": ports,
         "defined": defined,
         "version": version("softdepth"),
+        "period": f"{PERIOD:.3f}",
+        "half": f"{PERIOD / 2:.3f}",
     }
     written = {
         f"{name}.v": to_verilog(core, name),
@@ -45,7 +51,9 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
         f"{name}_instance.vhd": render("softdepth.export", "instance.vhd", **values),
         f"{name}.core": render("softdepth.export", "fusesoc.core", **values),
         f"{name}.vlt": render("softdepth.export", "waivers.vlt", **values),
+        **bench(config, name, bus, ports),
         f"{name}.sdc": render("softdepth.export", "axi.sdc", **values),
+        f"{name}.xdc": render("softdepth.export", "axi.xdc", **values),
         REGISTERS: "".join(f"`define {key} {value}\n" for key, value in defined.items()) + SOURCE.read_text(),
     }
     node = address_map(defined)

@@ -22,8 +22,8 @@ TOP = "top"
 SCOPE = "$scopeinfo"
 """A cell that is none: yosys leaves one of the name of each module that it flattened."""
 
-# Lanes were kept apart so that each was mapped once; from here on the design is one module.
-_JOIN = "setattr -mod -unset keep_hierarchy; flatten; opt_merge; opt_clean"
+JOIN = "setattr -mod -unset keep_hierarchy; flatten; opt_merge; opt_clean"
+"""Lanes were kept apart so that each was mapped once; from here on the design is one module."""
 
 
 def to_shared_rtlil(design: Component) -> str:
@@ -54,7 +54,7 @@ def synthesise(
     (folder / "design.il").write_text(text)
     target = FAMILIES[family]
     command = " ".join((target.synthesis(TOP), *options))
-    script = f"read_rtlil design.il; {command}; {_JOIN}; {target.pads} write_json mapped.json"
+    script = f"read_rtlil design.il; {command}; {JOIN}; {target.pads} write_json mapped.json"
     # The packaged yosys may lose what it prints, but not what it logs.
     find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
     netlist = json.loads((folder / "mapped.json").read_text())

@@ -7,7 +7,10 @@ from typing import TypeVar
 
 from softdepth.files import write_atomically
 from softdepth.flow.families import FAMILIES
+from softdepth.flow.other_families import OTHER_FAMILIES
 from softdepth.flow.tools import find_tool
+from softdepth.studies import other_families
+from softdepth.studies.other_families import FamilyRow
 from softdepth.studies.utilization import (
     AIM_MHZ,
     PART,
@@ -103,7 +106,8 @@ def write(folder: Path, measurements: Sequence[Measurement]) -> None:
         "runs": [found.model_dump(exclude={"row"}) for found in measurements],
     }
     write_atomically(folder / JSON, (json.dumps(figures, indent=1) + "\n").encode())
-    write_atomically(folder / "utilization.md", page(measurements, tools).encode())
+    text = page(measurements, tools, other_families.load(folder))
+    write_atomically(folder / "utilization.md", text.encode())
 
 
 def _tools(folder: Path) -> dict[str, str]:
@@ -125,8 +129,10 @@ def modes(row: Row) -> list[str]:
     return [name for name, rate in VIDEO_MODES.items() if row.mpixel_s >= rate]
 
 
-def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
-    """The figures as a Markdown page."""
+def page(
+    measurements: Sequence[Measurement], tools: dict[str, str], families: Sequence[FamilyRow] = ()
+) -> str:
+    """The figures as a Markdown page, those of other families at its end."""
     shown = medians(measurements)
     detailed = next((m for m, _ in shown if _name(m.row) == DETAILED), shown[0][0])
     text = render(
@@ -142,6 +148,8 @@ def page(measurements: Sequence[Measurement], tools: dict[str, str]) -> str:
         modes=modes,
         name=_name,
         detailed=detailed,
+        families=families,
+        targets=OTHER_FAMILIES,
     )
     return text + "\n"
 

@@ -1,18 +1,16 @@
 """The package with AXI streams, as those who take it in use it."""
 
-import os
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from softdepth.cli.app import main
 from softdepth.export.axi_package import axi_package
-from softdepth.sim.toolchain import find_toolchain
 from softdepth.spec.config import Config
 from softdepth.spec.registers import registers
+from tests.support.fusesoc import fusesoc
 
 SMALL = Config.preset("sad").override(["max_width=64", "max_height=48", "disparities=8", "lanes=4"])
 
@@ -38,22 +36,8 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return target
 
 
-def lint(package: Path, folder: Path) -> subprocess.CompletedProcess[str]:
-    tools = find_toolchain()
-    homes = {f"XDG_{name}_HOME": str(folder / name) for name in ("CONFIG", "CACHE", "DATA")}
-    paths = (str(Path(tools.verilator).parent), str(Path(sys.executable).parent), os.environ["PATH"])
-    return subprocess.run(
-        ["fusesoc", "--cores-root", str(package), "run", "--target=lint", "depth"],
-        cwd=folder,
-        env={**tools.environment, **homes, "PATH": os.pathsep.join(paths)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
 def test_fusesoc_lints(package: Path, tmp_path: Path) -> None:
-    done = lint(package, tmp_path)
+    done = fusesoc(package, tmp_path, "lint")
     assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
 
 
@@ -67,7 +51,7 @@ def test_fusesoc_lints_every_stage_and_wishbone(tmp_path: Path) -> None:
     target = tmp_path / "ip"
     chosen = ["--config", str(tmp_path / "small.toml"), "--name", "depth", "-o", str(target)]
     main(["export", "--ip", "axi", "--bus", "wishbone", *chosen])
-    done = lint(target, tmp_path)
+    done = fusesoc(target, tmp_path, "lint")
     assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
 
 
@@ -78,7 +62,7 @@ def test_fusesoc_would_say_so(package: Path, tmp_path: Path) -> None:
     head, _, rest = text.partition("module depth(")
     core.write_text(f"{head}module depth({rest.replace('endmodule', latch, 1)}")
     try:
-        done = lint(package, tmp_path)
+        done = fusesoc(package, tmp_path, "lint")
         assert done.returncode
         assert "%Warning-LATCH" in done.stdout + done.stderr
     finally:
@@ -103,6 +87,27 @@ def test_the_templates_have_every_port(package: Path) -> None:
         assert all(
             port in re.findall(r"\w+", text) for port in ("aclk", "s_axis_tdata", "irq", *ports[:3])
         ), file
+
+
+@pytest.mark.parametrize(("file", "every"), [("depth.sdc", "*"), ("depth.xdc", "[*]")])
+def test_the_constraints_name_every_port(package: Path, file: str, every: str) -> None:
+    """Read by a Tcl interpreter, whose commands of the tools say what they were given."""
+    tkinter = pytest.importorskip("tkinter", reason="Python has no Tcl: sudo apt install python3-tk")
+    tcl = tkinter.Tcl()
+    named: dict[str, set[str]] = {}
+    for command in ("create_clock", "set_input_delay", "set_output_delay"):
+        tcl.createcommand(command, lambda *words, at=command: named.setdefault(at, set()).update(words))
+    tcl.createcommand("get_ports", lambda names: names)
+    tcl.eval((package / file).read_text())
+    sides = {"input": set[str](), "output": set[str]()}
+    head = (package / "depth.v").read_text().partition("module depth(")[2].partition("endmodule")[0]
+    for side, bits, name in re.findall(r"^  (input|output) (\[[\d:]+\] )?(\w+);", head, re.MULTILINE):
+        sides[side].add(f"{name}{every}" if bits else name)
+    assert len(sides["input"]) > 10
+    assert "aclk" in named["create_clock"]
+    for side, ports in sides.items():
+        (given,) = (word for word in named[f"set_{side}_delay"] if "tvalid" in word)
+        assert set(given.split()) == ports - {"aclk"}
 
 
 def test_wishbone_in_place_of_axi_lite() -> None:

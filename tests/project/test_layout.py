@@ -18,7 +18,7 @@ PERMITTED: dict[str, set[str]] = {
     "hdl": {"spec"},
     "sim": {"golden", "hdl", "spec", "files"},
     "flow": {"hdl", "spec", *BASE},
-    "export": {"hdl", "spec", "templates"},
+    "export": {"golden", "hdl", "spec", "templates"},
     "rig": {"golden", "spec", "files"},
     "metric": {"rig", "golden", "spec", "files"},
     "ros": {"metric", "rig", "spec"},

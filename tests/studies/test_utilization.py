@@ -15,7 +15,7 @@ from softdepth.flow.route import Clock, CriticalPath, Routed, Usage
 from softdepth.flow.synthesis import TOP, synthesise
 from softdepth.flow.tools import Tool
 from softdepth.spec.config import Config
-from softdepth.studies import utilization, utilization_page
+from softdepth.studies import other_families, utilization, utilization_page
 from softdepth.studies.utilization import PART, Row, Selection, row_of
 
 KEYS = [
@@ -299,7 +299,8 @@ def test_a_folder_that_is_not_there(refused, runs, tmp_path):
 
 def test_the_page_in_the_documents_is_what_its_figures_give(project):
     figures = json.loads((project / "docs" / "utilization.json").read_text())
-    page = utilization_page.page(utilization_page.load(project / "docs"), figures["tools"])
+    families = other_families.load(project / "docs")
+    page = utilization_page.page(utilization_page.load(project / "docs"), figures["tools"], families)
     assert page == (project / "docs" / "utilization.md").read_text()
 
 

@@ -8,6 +8,7 @@ from peakrdl_cheader.exporter import CHeaderExporter
 from peakrdl_markdown import MarkdownExporter
 
 from softdepth.export.bench import bench
+from softdepth.export.component import component
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
@@ -27,8 +28,8 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
     """The files of the package by their names.
 
     Verilog; a bench with what it sends and compares; the registers in SystemRDL, as a C header and as a
-    page; instantiations in Verilog and VHDL; constraints; and a FuseSoC core, whose target ``lint`` has
-    Verilator read it, and ``sim`` run the bench.
+    page; instantiations in Verilog and VHDL; constraints; an IP-XACT component; and a FuseSoC core, whose
+    target ``lint`` has Verilator read it, and ``sim`` run the bench.
     """
     core = AxiCore(config, bus)
     ports = [
@@ -57,6 +58,7 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
         REGISTERS: "".join(f"`define {key} {value}\n" for key, value in defined.items()) + SOURCE.read_text(),
     }
     node = address_map(defined)
+    written[f"{name}.xml"] = component(config, name, bus, ports, node)
     with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
         header, page = Path(folder) / HEADER, Path(folder) / PAGE
         CHeaderExporter().export(node, str(header))

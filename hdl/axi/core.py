@@ -6,13 +6,15 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.axi.axi_lite import AxiLite, axi_lite
 from softdepth.hdl.axi.frames import Frames
+from softdepth.hdl.axi.inputs import PREFIX, OneStream, TwoStreams, axi_stream
 from softdepth.hdl.axi.markers import Markers
 from softdepth.hdl.axi.register_bank import RegisterBank, word_bits
-from softdepth.hdl.axi.tdata import extended, outcome_layout, pair_bits, pixel_of
+from softdepth.hdl.axi.tdata import extended, outcome_layout
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.post.layout import is_measured
 from softdepth.hdl.signatures import Faults, Status, settings_layout
+from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.spec.registers import UNSURE, registers
@@ -42,24 +44,27 @@ class AxiCore(wiring.Component):
     Members
     -------
     aclk, aresetn : clock, and reset, active low and synchronous.
-    s_axis_* : both views' pixels, `pair_bits`; ``tuser`` starts a frame, ``tlast`` ends a line.
+    s_axis_* : both views' pixels, `pair_bits`; ``tuser`` starts a frame, ``tlast`` ends a line. Or
+    s_axis_left_*, s_axis_right_* : a view's each, `view_bits`, as `TwoStreams` joins them.
     m_axis_* : results, `outcome_layout`, one for each pixel.
     s_axil_*, or wb_* : the registers.
     irq : a flag is raised whose interrupt is on; a level.
     """
 
-    def __init__(self, config: Config, bus: Bus = "axi-lite") -> None:
+    def __init__(self, config: Config, options: AxiOptions = DEFAULT) -> None:
         self._config = config
-        self._bus: Bus = bus
+        self._bus: Bus = options.bus
+        self._source = TwoStreams(config, options) if options.two else OneStream(config)
         self._core = StereoCore(config, settings=True)
-        self._registers = registers(config)
-        prefix, ports, _ = BUSES[bus]
+        self._registers = registers(config, options)
+        prefix, ports, _ = BUSES[self._bus]
+        streams = {name: member for name, member in self._source.signature.members.items() if _is_port(name)}
         super().__init__(
             {
                 "aclk": In(1),
                 "aresetn": In(1),
-                **_stream("s_axis", pair_bits(config.pixel), In),
-                **_stream("m_axis", outcome_layout(config).size, Out),
+                **streams,
+                **axi_stream("m_axis", outcome_layout(config).size, Out),
                 **{f"{prefix}_{name}": member for name, member in ports(word_bits(self._registers)).items()},
                 "irq": Out(1),
             }
@@ -78,31 +83,42 @@ class AxiCore(wiring.Component):
         wiring.connect(m, bus.bus, bank.bus)
         for name, member in bus.signature.members.items():
             if name != "bus":
-                outside, inside = getattr(self, f"{prefix}_{name}"), getattr(bus, name)
-                m.d.comb += inside.eq(outside) if member.flow is In else outside.eq(inside)
+                _through(m, member, getattr(self, f"{prefix}_{name}"), getattr(bus, name))
+        m.submodules.source = source = self._source
+        for name, member in source.signature.members.items():
+            if _is_port(name):
+                _through(m, member, getattr(self, name), getattr(source, name))
 
         held, given = bank.held, bank.given
         applied = self._taken_over(m, bank, frames)
-        pair = core.i.payload
-        size = self._config.pixel.size
+        pair, come = core.i.payload, source.o.payload
         m.d.comb += [
-            core.i.valid.eq(self.s_axis_tvalid),
-            self.s_axis_tready.eq(core.i.ready),
-            pair.left.eq(pixel_of(self.s_axis_tdata[:size], self._config.pixel)),
-            pair.right.eq(pixel_of(self.s_axis_tdata[size : 2 * size], self._config.pixel)),
-            pair.sof.eq(self.s_axis_tuser),
+            core.i.valid.eq(source.o.valid),
+            source.o.ready.eq(core.i.ready),
+            pair.left.eq(come.left),
+            pair.right.eq(come.right),
+            pair.sof.eq(come.sof),
             pair.eol.eq(markers.eol),
             pair.eof.eq(markers.eof),
             markers.taken.eq(core.i.valid & core.i.ready),
-            markers.sof.eq(self.s_axis_tuser),
-            markers.last.eq(self.s_axis_tlast),
+            markers.sof.eq(come.sof),
+            markers.last.eq(come.last),
             markers.width.eq(applied.geometry_width),
             markers.height.eq(applied.geometry_height),
-            frames.begins.eq(markers.taken & self.s_axis_tuser & ~core.settings.skip),
+            frames.begins.eq(markers.taken & come.sof & ~core.settings.skip),
             core.settings.skip.eq(~held.control_enable),
             core.settings.clear.eq(held.control_clear),
             frames.clear.eq(held.control_clear),
         ]
+        if isinstance(source, TwoStreams):
+            m.d.comb += [
+                source.by_count.eq(applied.geometry_width.any()),
+                source.between.eq(markers.between),
+                source.clear.eq(held.control_clear),
+                given.flags_alignment.eq(source.lost),
+                given.flags_skew.eq(source.waits),
+                given.alignment_losses_count.eq(source.losses),
+            ]
         thresholds = {"tolerance": "check_tolerance", "island": "island_least"}
         for name in settings_layout(self._config).members.keys() & thresholds.keys():
             m.d.comb += core.settings[name].eq(applied[thresholds[name]])
@@ -174,16 +190,13 @@ class AxiCore(wiring.Component):
         ]
 
 
-def _stream(prefix: str, bits: int, flow: wiring.Flow) -> dict[str, wiring.Member]:
-    """The ports of an AXI4-Stream Video interface that comes in, or goes out."""
-    against = Out if flow is In else In
-    return {
-        f"{prefix}_tdata": flow(bits),
-        f"{prefix}_tvalid": flow(1),
-        f"{prefix}_tready": against(1),
-        f"{prefix}_tuser": flow(1),
-        f"{prefix}_tlast": flow(1),
-    }
+def _is_port(name: str) -> bool:
+    return name.startswith(PREFIX)
+
+
+def _through(m: Module, member: wiring.Member, outside: Value, inside: Value) -> None:
+    """A part's port becomes one of the whole."""
+    m.d.comb += inside.eq(outside) if member.flow is In else outside.eq(inside)
 
 
 def _any_of(held: data.View, values: str, masks: str) -> Value:

@@ -16,6 +16,7 @@ class Markers(wiring.Component):
     sof, last : its marks: it starts a frame, it ends a line.
     width, height : what was set; 0 is nothing.
     eol, eof : it ends a line, or a frame. Without a height, ``eof`` is 0.
+    between : the next pixel begins a line.
     """
 
     def __init__(self) -> None:
@@ -28,6 +29,7 @@ class Markers(wiring.Component):
                 "height": In(GEOMETRY_BITS),
                 "eol": Out(1),
                 "eof": Out(1),
+                "between": Out(1),
             }
         )
 
@@ -39,6 +41,7 @@ class Markers(wiring.Component):
         m.d.comb += [
             self.eol.eq(Mux(self.width.any(), column == self.width, self.last)),
             self.eof.eq(self.eol & (row == self.height)),
+            self.between.eq(columns == 1),
         ]
         with m.If(self.taken):
             m.d.sync += [

@@ -23,20 +23,31 @@ def pair_bits(pixel: PixelFormat) -> int:
     return whole_bytes(2 * pixel.size)
 
 
+def view_bits(pixel: PixelFormat) -> int:
+    """Bits of ``tdata`` with a pixel of one view, 0 above."""
+    return whole_bytes(pixel.size)
+
+
 def pixel_of(bits: Value, pixel: PixelFormat) -> Value:
     """A pixel as the core wants it, red lowest, of the same in UG934's order."""
     order = CHANNELS[pixel.channels]
     return Cat(bits.word_select(order.index(k), pixel.bits) for k in range(pixel.channels))
 
 
-def outcome_layout(config: Config) -> data.StructLayout:
-    """``tdata`` of a result, byte by byte, lowest first."""
+def in_order(value: Value, pixel: PixelFormat) -> Value:
+    """A pixel in UG934's order, of one with red lowest."""
+    return Cat(value.word_select(k, pixel.bits) for k in CHANNELS[pixel.channels])
+
+
+def outcome_layout(config: Config, *, left: bool = False) -> data.StructLayout:
+    """``tdata`` of a result, byte by byte, lowest first; on request with its pixel of the left view."""
     return data.StructLayout(
         {
             "disparity": DISPARITY_BITS,
             "code": BYTE - 1,
             "damaged": 1,
             **({"confidence": BYTE} if config.post.confidence else {}),
+            **({"left": view_bits(config.pixel)} if left else {}),
         }
     )
 

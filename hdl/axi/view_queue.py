@@ -19,7 +19,7 @@ class ViewQueue(wiring.Component):
 
     With a clock of its own, the stream ``i`` is synchronous to that, and Amaranth's `AsyncFIFOBuffered`
     brings pixels over; its depth is a power of two, and one more. The core's reset is brought over the other
-    way, so that there is one reset for both sides. During reset nothing is taken.
+    way, a clock late, so that there is one reset for both sides. From then on nothing is taken.
 
     Parameters
     ----------
@@ -50,7 +50,9 @@ class ViewQueue(wiring.Component):
         size, resets = self._layout.size, Signal()
         if self._own_clock:
             m.domains.source = ClockDomain(local=True)
-            m.submodules.reset = ResetSynchronizer(ResetSignal("sync"), domain="source")
+            crosses = Signal(reset_less=True)  # what is brought over comes from a register
+            m.d.sync += crosses.eq(ResetSignal("sync"))
+            m.submodules.reset = ResetSynchronizer(crosses, domain="source")
             m.d.comb += [ClockSignal("source").eq(self.clk), resets.eq(ResetSignal("source"))]
             fifo = AsyncFIFOBuffered(width=size, depth=self._depth, r_domain="sync", w_domain="source")
         else:

@@ -1,13 +1,14 @@
 """``softdepth export``: a configured core as Verilog."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from softdepth import screen
 from softdepth.cli import options
 from softdepth.cli.bundle import bundled
+from softdepth.spec.axi_options import SKEW_LINES, AxiOptions, Clocks, Inputs
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
@@ -38,14 +39,32 @@ def export(
         typer.Option("--ip", help="A package with AXI4-Stream Video and registers: docs/axi.md."),
     ] = None,
     bus: Annotated[Bus | None, typer.Option("--bus", help="Of the registers, with --ip.")] = None,
+    inputs: Annotated[
+        Inputs | None, typer.Option("--inputs", help="Streams that bring the views, with --ip.")
+    ] = None,
+    skew: Annotated[
+        int | None,
+        typer.Option(
+            "--skew",
+            metavar="LINES",
+            min=1,
+            help=f"Of two inputs, by how many lines one may be ahead: {SKEW_LINES} unless set.",
+        ),
+    ] = None,
+    clocks: Annotated[
+        Clocks | None, typer.Option("--clocks", help="Of two inputs: the core's, or each its own.")
+    ] = None,
 ) -> None:
     """Write the core as one self-contained Verilog file, or as a package for a design with AXI streams."""
     chosen = choice.configuration()
-    if ip is None and bus is not None:
-        raise InputError(f"--bus {bus} without --ip: the plain core has no registers", "add --ip axi")
+    asked = {"bus": bus, "inputs": inputs, "skew": skew, "clocks": clocks}
     if ip is not None:
-        _package(chosen, name, output, bus or "axi-lite")
+        _package(chosen, name, output, _options({k: v for k, v in asked.items() if v is not None}, chosen))
         return
+    for option, value in asked.items():
+        if value is not None:
+            what = "has no registers" if option == "bus" else "has a stream of its own"
+            raise InputError(f"--{option} {value} without --ip: the plain core {what}", "add --ip axi")
     on_screen = str(output) == "-"
     from softdepth.export.core_file import check_export, export_core
     from softdepth.files import check_writable, is_replaced, refuse_to_replace, write_atomically
@@ -69,7 +88,23 @@ def export(
     screen.note(f"{output}: module {name}, configuration {chosen.name} ({chosen.hash}){beside}")
 
 
-def _package(config: Config, name: str, output: Path, bus: Bus) -> None:
+def _options(asked: dict[str, Any], config: Config) -> AxiOptions:
+    """The ports that were asked for; raises `InputError` for what does not go together."""
+    options = AxiOptions(**asked)
+    for option in ("skew", "clocks"):
+        if option in asked and not options.two:
+            raise InputError(
+                f"--{option} {asked[option]} is of two streams, and there is one", "add --inputs two"
+            )
+    if options.skew > config.max_height:
+        raise InputError(
+            f"--skew {options.skew} is more lines than a frame can have, {config.max_height}",
+            "use a few: each takes a line of block RAM in either view",
+        )
+    return options
+
+
+def _package(config: Config, name: str, output: Path, options: AxiOptions) -> None:
     """The core with AXI streams, as files in a folder."""
     from softdepth.export.axi_package import axi_package
     from softdepth.export.core_file import check_export
@@ -79,6 +114,6 @@ def _package(config: Config, name: str, output: Path, bus: Bus) -> None:
         raise InputError("--ip writes a folder, and '-' is standard output", "name a folder with -o")
     check_export(config, name)
     with result_folder(output, last=f"{name}.core") as folder:
-        for file, text in axi_package(config, name, bus).items():
+        for file, text in axi_package(config, name, options).items():
             (folder / file).write_text(text.rstrip("\n") + "\n")
     screen.note(f"{output}: module {name} with AXI streams, configuration {config.name} ({config.hash})")

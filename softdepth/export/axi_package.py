@@ -1,8 +1,10 @@
 """The core with AXI streams as a package: what a design takes in to use it."""
 
 import tempfile
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from peakrdl_cheader.exporter import CHeaderExporter
 from peakrdl_markdown import MarkdownExporter
@@ -12,7 +14,7 @@ from softdepth.export.component import component
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
-from softdepth.spec.bus import Bus
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.registers import SOURCE, address_map, definitions
 from softdepth.templates import render
@@ -22,26 +24,28 @@ HEADER = "registers.h"
 PAGE = "registers.md"
 PERIOD = 10.0
 """Of the clock in the constraints, in nanoseconds: a figure to begin with."""
+CLOCK = "aclk"
 
 
-def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
+def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str]:
     """The files of the package by their names.
 
     Verilog; a bench with what it sends and compares; the registers in SystemRDL, as a C header and as a
     page; instantiations in Verilog and VHDL; constraints; an IP-XACT component; and a FuseSoC core, whose
     target ``lint`` has Verilator read it, and ``sim`` run the bench.
     """
-    core = AxiCore(config, bus)
+    core = AxiCore(config, options)
     ports = [
         {"name": port.name, "direction": port.flow.name.lower(), "width": len(port.value)}  # type: ignore[arg-type]
         for port in ports_of(core)
     ]
-    defined = definitions(config)
+    defined = definitions(config, options)
     values = {
         "name": name,
         "config": config,
         "ports": ports,
         "defined": defined,
+        "clocks": clocks_of(ports),
         "version": version("softdepth"),
         "period": f"{PERIOD:.3f}",
         "half": f"{PERIOD / 2:.3f}",
@@ -52,7 +56,7 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
         f"{name}_instance.vhd": render("softdepth.export", "instance.vhd", **values),
         f"{name}.core": render("softdepth.export", "fusesoc.core", **values),
         f"{name}.vlt": render("softdepth.export", "waivers.vlt", **values),
-        **bench(config, name, bus, ports),
+        **bench(config, name, options, ports),
         f"{name}.sdc": render("softdepth.export", "axi.sdc", **values),
         f"{name}.xdc": render("softdepth.export", "axi.xdc", **values),
         REGISTERS: "".join(f"`define {key} {value}\n" for key, value in defined.items()) + SOURCE.read_text(),
@@ -64,3 +68,18 @@ def axi_package(config: Config, name: str, bus: Bus) -> dict[str, str]:
         CHeaderExporter().export(node, str(header))
         MarkdownExporter().export(node, str(page), input_files=[REGISTERS])
         return written | {HEADER: header.read_text(), PAGE: page.read_text()}
+
+
+def clocks_of(ports: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """The clocks among the ports, and by direction which ports are synchronous to each, for constraints.
+
+    A stream that has an ``aclk`` is synchronous to that, all else to the core's.
+    """
+    names = sorted((p["name"] for p in ports if p["name"].endswith(CLOCK)), key=len)
+    found: dict[str, dict[str, Any]] = {name: {"name": name, "inputs": [], "outputs": []} for name in names}
+    for port in ports:
+        if port["name"] not in found:
+            own = [name for name in names if port["name"].startswith(name.removesuffix(CLOCK))]
+            text = port["name"] + ("*" if port["width"] > 1 else "")
+            found[own[-1]]["inputs" if port["direction"] == "in" else "outputs"].append(text)
+    return list(found.values())

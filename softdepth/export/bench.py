@@ -6,8 +6,9 @@ from importlib.metadata import version
 from typing import Any
 
 from softdepth.export.bench_frames import FRAMES, bench_frames
+from softdepth.hdl.axi.inputs import VIEWS
 from softdepth.hdl.axi.tdata import outcome_layout, pair_bits
-from softdepth.spec.bus import Bus
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.registers import WORD_BITS, Register, registers
 from softdepth.templates import render
@@ -27,7 +28,7 @@ class Step:
     meaning: str
 
 
-def bench(config: Config, name: str, bus: Bus, ports: Sequence[dict[str, Any]]) -> dict[str, str]:
+def bench(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[str, Any]]) -> dict[str, str]:
     """The bench and the words it sends and compares, by the names of the files.
 
     Parameters
@@ -35,7 +36,7 @@ def bench(config: Config, name: str, bus: Bus, ports: Sequence[dict[str, Any]]) 
     ports : of the core, each with its name, direction (``in``, ``out``) and width.
     """
     frames = bench_frames(config)
-    described = {register.name: register for register in registers(config)}
+    described = {register.name: register for register in registers(config, options)}
     size = frames.height << _low(described["GEOMETRY"], "geometry_height")
     seen = size | frames.width << _low(described["SEEN"], "seen_width")
     word = (1 << WORD_BITS) - 1
@@ -70,7 +71,8 @@ def bench(config: Config, name: str, bus: Bus, ports: Sequence[dict[str, Any]]) 
         config=config,
         version=version("softdepth"),
         ports=ports,
-        bus=bus,
+        bus=options.bus,
+        streams=streams(config, options),
         frames=frames,
         count=FRAMES,
         patience=frames.height * (frames.width + config.disparities) * config.steps + SLACK,
@@ -87,6 +89,17 @@ def bench(config: Config, name: str, bus: Bus, ports: Sequence[dict[str, Any]]) 
         f"{name}_bench_in.hex": frames.sent,
         f"{name}_bench_out.hex": frames.expected,
     }
+
+
+def streams(config: Config, options: AxiOptions) -> list[dict[str, Any]]:
+    """What comes in: prefix and clock of each stream, and which bits of the words it takes."""
+    if not options.two:
+        return [{"prefix": "s_axis", "clock": "aclk", "low": 0, "width": pair_bits(config.pixel)}]
+    size = config.pixel.size
+    views = [{"prefix": f"s_axis_{view}", "low": k * size, "width": size} for k, view in enumerate(VIEWS)]
+    return [
+        {**view, "clock": f"{view['prefix']}_aclk" if options.clocks == "own" else "aclk"} for view in views
+    ]
 
 
 def _low(register: Register, field: str) -> int:

@@ -34,3 +34,7 @@ class AxiOptions:
     def two(self) -> bool:
         """The views come in two streams."""
         return self.inputs == "two"
+
+
+DEFAULT = AxiOptions()
+"""One stream in, no pixels out, AXI4-Lite."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from systemrdl.compiler import RDLCompiler
 from systemrdl.node import AddrmapNode, FieldNode, RegNode
 
+from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.config import Config
 
 SOURCE = Path(__file__).with_suffix(".rdl")
@@ -56,8 +57,8 @@ class Register:
     fields: tuple[RegisterField, ...]
 
 
-def definitions(config: Config) -> dict[str, str]:
-    """What ``registers.rdl`` is told of a configuration."""
+def definitions(config: Config, options: AxiOptions = DEFAULT) -> dict[str, str]:
+    """What ``registers.rdl`` is told of a configuration, and of the ports."""
     post = config.post
     major, minor, patch = (int(part) for part in version("softdepth").split(".")[:3])
     number = int(config.hash, 16)
@@ -74,8 +75,11 @@ def definitions(config: Config) -> dict[str, str]:
         "FRACTION_BITS": post.fraction_bits,
         "STEPS": config.steps,
         "HAS_CONFIDENCE": int(post.confidence),
+        "HAS_TWO_STREAMS": int(options.two),
+        "HAS_LEFT": int(options.left),
     }
     optional = {
+        "TWO_STREAMS": options.two,
         "CONFIDENCE": post.confidence,
         "TOLERANCE": post.tolerance if post.check else None,
         "ISLAND": post.island or None,
@@ -93,9 +97,9 @@ def address_map(defined: Mapping[str, str]) -> AddrmapNode:
     return compiler.elaborate().top
 
 
-def registers(config: Config) -> tuple[Register, ...]:
+def registers(config: Config, options: AxiOptions = DEFAULT) -> tuple[Register, ...]:
     """The registers of a configuration's core, in the order of their addresses."""
-    nodes = address_map(definitions(config)).registers()
+    nodes = address_map(definitions(config, options)).registers()
     return tuple(_register(node) for node in nodes)
 
 

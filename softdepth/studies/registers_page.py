@@ -5,6 +5,7 @@ from pathlib import Path
 
 from softdepth.ending import ended
 from softdepth.files import write_atomically
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 from softdepth.spec.registers import Register, RegisterField, registers
@@ -14,7 +15,8 @@ from softdepth.templates import render
 DOCUMENT = Path("docs/axi.md")
 PART = "registers"
 CONFIG = Config.preset("robust")
-"""A preset whose core has every register."""
+OPTIONS = AxiOptions(inputs="two", left=True)
+"""A preset and ports whose core has every register."""
 
 
 def page() -> str:
@@ -29,7 +31,7 @@ def page() -> str:
             "reset": field.reset if field.writable and not field.pulses else "",
             "meaning": _meaning(register, field),
         }
-        for register in registers(CONFIG)
+        for register in registers(CONFIG, OPTIONS)
         for field in register.fields
     ]
     return render("softdepth.studies", "registers.md", rows=rows)

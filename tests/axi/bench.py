@@ -1,6 +1,7 @@
 """The bench of the AXI core: sources, sinks and masters are cocotbext-axi's. `tests.axi.runs` starts it.
 
-What is to be sent is a list of steps: lines of video, and writes to registers between them.
+What is to be sent is a list of steps: lines of video, and writes to registers between them. Two streams have
+theirs each, which go out side by side after the others.
 """
 
 import json
@@ -23,7 +24,10 @@ from cocotbext.axi import (
 )
 
 JOB_VARIABLE = "SOFTDEPTH_AXI_JOB"
-PERIOD = 10
+PERIOD = 100
+"""Nanoseconds."""
+OWN_PERIODS = (60, 160)
+"""Nanoseconds of a view's own clock, at least and less than."""
 QUIET = 6000
 """Clocks without a line after which nothing more is expected."""
 TIMEOUT = 40_000_000
@@ -42,10 +46,18 @@ async def run(dut: Any) -> None:
     job = json.loads(path.read_text())
     random = Random(job["seed"])
     cocotb.start_soon(Clock(dut.aclk, PERIOD, unit="ns").start())
-    source = AxiStreamSource(AxiStreamBus.from_prefix(dut, "s_axis"), dut.aclk, dut.aresetn, False)
+    sources: dict[str, AxiStreamSource] = {}
+    for number, view in enumerate(job["views"]):
+        prefix = f"s_axis_{view}".removesuffix("_")
+        clock = getattr(dut, f"{prefix}_aclk", dut.aclk)
+        if clock is not dut.aclk:
+            cocotb.start_soon(Clock(clock, random.randrange(*OWN_PERIODS, 2), unit="ns").start())
+        bus = AxiStreamBus.from_prefix(dut, prefix)
+        sources[view] = AxiStreamSource(bus, clock, dut.aresetn, False)
+        sources[view].set_pause_generator(pauses(Random(job["seed"] + 3 + number), job["idle"]))
     sink = AxiStreamSink(AxiStreamBus.from_prefix(dut, "m_axis"), dut.aclk, dut.aresetn, False)
     master = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axil"), dut.aclk, dut.aresetn, False)
-    for each in (source, sink):
+    for each in (*sources.values(), sink):
         each.log.setLevel("WARNING")
     for each in (master.write_if, master.read_if):
         each.log.setLevel("WARNING")
@@ -53,10 +65,8 @@ async def run(dut: Any) -> None:
     await ClockCycles(dut.aclk, 4)
     dut.aresetn.value = 1
     await RisingEdge(dut.aclk)
-    source.set_pause_generator(pauses(Random(job["seed"] + 1), job["idle"]))
     sink.set_pause_generator(pauses(Random(job["seed"] + 2), job["pressure"]))
 
-    lanes = len(dut.s_axis_tdata) // 8
     reads: dict[str, int] = {}
 
     async def chatter() -> None:
@@ -67,17 +77,24 @@ async def run(dut: Any) -> None:
             await master.read(address, 4)
 
     talk = cocotb.start_soon(chatter())
-    for step in job["steps"]:
-        if "write" in step:
-            address, value = step["write"]
-            await master.write(address, value.to_bytes(4, "little"))
-        elif "wait" in step:
-            await source.wait()
-        else:
+
+    async def act(view: str) -> None:
+        source = sources[view]
+        lanes = source.byte_lanes
+        for step in job["views"][view]:
+            if "write" in step:
+                address, value = step["write"]
+                await master.write(address, value.to_bytes(4, "little"))
+                continue
             data = bytes.fromhex(step["line"])
             user = [int(k // lanes in step["sof"]) for k in range(len(data))]
             await source.send(AxiStreamFrame(data, tuser=user))
             await source.wait()
+
+    acting = [cocotb.start_soon(act(view)) for view in sources]
+    if len(acting) == 1:
+        await acting[0]
+    # Of two streams one may be left with pixels that have no partner.
     lines = []
     while True:
         got = await First(cocotb.start_soon(sink.recv()), Timer(QUIET * PERIOD, "ns"))
@@ -85,7 +102,8 @@ async def run(dut: Any) -> None:
             break
         user = got.tuser if isinstance(got.tuser, list) else [got.tuser] * len(got.tdata)
         lines.append({"data": bytes(got.tdata).hex(), "sof": [k for k, bit in enumerate(user) if bit]})
-    talk.cancel()
+    for task in (talk, *acting):
+        task.cancel()
     irq = int(dut.irq.value)
     for name, address in job["registers"].items():
         reads[name] = int.from_bytes((await master.read(address, 4)).data, "little")

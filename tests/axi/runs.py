@@ -12,15 +12,18 @@ from numpy.typing import NDArray
 from softdepth.golden import fixed_model
 from softdepth.golden.front.pair import Image
 from softdepth.hdl.axi.core import AxiCore
+from softdepth.hdl.axi.tdata import outcome_layout
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
 from softdepth.sim.build import TOP, build
 from softdepth.sim.stream import simulate
+from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.registers import UNSURE, registers
 from softdepth.spec.validity import Validity
 from tests.axi.bench import JOB_VARIABLE
 
+BYTE = np.uint64(8)
 ORDER = (1, 2, 0)
 """UG934: green lowest, then blue, then red."""
 HAS_DISPARITY = (Validity.FULL, Validity.PARTIAL, Validity.FILLED)
@@ -35,18 +38,61 @@ SMALL = Config.preset("robust-small").override(
 """A core with everything that a register sets."""
 
 
+@dataclass(frozen=True)
+class Design:
+    """A core that is simulated."""
+
+    config: Config
+    options: AxiOptions = DEFAULT
+
+    @property
+    def views(self) -> tuple[str, ...]:
+        """What its input streams are called; one has no name."""
+        return ("left", "right") if self.options.two else ("",)
+
+    @property
+    def addresses(self) -> dict[str, int]:
+        """Of its registers."""
+        return {r.name: r.address for r in registers(self.config, self.options)}
+
+    @property
+    def result_bytes(self) -> int:
+        """Of a result."""
+        return outcome_layout(self.config, left=self.options.left).size // 8
+
+
+ROBUST = Design(SMALL)
+PAPER = Design(
+    Config.preset("paper").override(
+        [
+            *("max_width=32", "max_height=12", "disparities=6", "lanes=2", "criteria.2.window=5"),
+            *("compensation.reading=top", "compensation.threshold=600", "compensation.from_disparity=2"),
+        ]
+    ),
+    AxiOptions(inputs="two", skew=2, clocks="own"),
+)
+"""A core of the other kind, with a stream a view, each of its own clock."""
+ADDRESSES = ROBUST.addresses
+
+
 @dataclass
 class Steps:
-    """What the bench does."""
+    """What the bench does, on each input stream of `design` for itself."""
 
-    steps: list[dict[str, Any]] = field(default_factory=list)
+    design: Design = ROBUST
+    views: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
 
     def line(self, left: Image, right: Image, *sof: bool) -> None:
         """A line of both views, W x 3; `sof` of its pixels, the rest of them none."""
-        both = np.concatenate([left[:, ORDER], right[:, ORDER]], axis=1)
-        self.steps.append(
-            {"line": both.tobytes().hex(), "sof": [k for k, starts in enumerate(sof) if starts]}
-        )
+        if self.design.options.two:
+            self.view("left", left, *sof)
+            self.view("right", right, *sof)
+        else:
+            self._line("", np.concatenate([left[:, ORDER], right[:, ORDER]], axis=1), sof)
+
+    def view(self, name: str, pixels: Image, *sof: bool) -> None:
+        """A line of one view."""
+        self._line(name, pixels[:, ORDER], sof)
 
     def lines(self, left: Image, right: Image, rows: range) -> None:
         """Lines of a frame."""
@@ -54,26 +100,30 @@ class Steps:
             self.line(left[y], right[y], y == 0)
 
     def write(self, name: str, value: int) -> None:
-        """A register of 32 bits."""
-        self.steps.append({"write": [ADDRESSES[name], value]})
+        """A register of 32 bits; of two streams, the left one waits for it."""
+        self._of(self.design.views[0]).append({"write": [self.design.addresses[name], value]})
 
+    def _line(self, name: str, pixels: Image, sof: tuple[bool, ...]) -> None:
+        starts = [k for k, begins in enumerate(sof) if begins]
+        self._of(name).append({"line": pixels.tobytes().hex(), "sof": starts})
 
-ADDRESSES = {register.name: register.address for register in registers(SMALL)}
+    def _of(self, name: str) -> list[dict[str, Any]]:
+        return self.views.setdefault(name, [])
 
 
 @dataclass(frozen=True)
 class Outcome:
     """What came out: frames of the words of ``m_axis_tdata``, registers, and ``irq``."""
 
-    frames: list[NDArray[np.uint32]]
+    frames: list[NDArray[np.uint64]]
     registers: dict[str, int]
     irq: int
 
 
 @cache
-def program() -> Path:
-    """The simulated core of `SMALL`."""
-    core = AxiCore(SMALL)
+def program(design: Design) -> Path:
+    """The simulated core."""
+    core = AxiCore(design.config, design.options)
     ports = ports_of(core)
     names = {way: [p.name for p in ports if p.flow.name == way] for way in ("In", "Out")}
     return build(to_verilog(core, TOP), inputs=names["In"], outputs=names["Out"]).folder
@@ -82,30 +132,38 @@ def program() -> Path:
 def run(steps: Steps, folder: Path, *, seed: int = 0, idle: float = 0.0, pressure: float = 0.0) -> Outcome:
     """Runs the bench; frames must be whole."""
     path = folder / "job.json"
-    job = {"seed": seed, "idle": idle, "pressure": pressure, "steps": steps.steps, "registers": ADDRESSES}
+    design, size = steps.design, steps.design.result_bytes
+    job = {
+        "seed": seed,
+        "idle": idle,
+        "pressure": pressure,
+        "views": steps.views,
+        "registers": design.addresses,
+    }
     path.write_text(json.dumps(job))
-    ended = simulate(program(), "tests.axi.bench", folder, {JOB_VARIABLE: str(path)})
+    ended = simulate(program(design), "tests.axi.bench", folder, {JOB_VARIABLE: str(path)})
     out = path.with_suffix(".out")
     assert ended, (folder / "log").read_text()[-2000:]
     came = json.loads(out.read_text())
-    frames: list[list[NDArray[np.uint32]]] = []
+    frames: list[list[NDArray[np.uint64]]] = []
     for line in came["lines"]:
         if line["sof"]:
-            assert line["sof"] == [0, 1, 2, 3], "start of frame within a line"
+            assert line["sof"] == list(range(size)), "start of frame within a line"
             frames.append([])
-        frames[-1].append(np.frombuffer(bytes.fromhex(line["data"]), "<u4"))
+        found = np.frombuffer(bytes.fromhex(line["data"]), np.uint8).reshape(-1, size).astype(np.uint64)
+        frames[-1].append(np.bitwise_or.reduce(found << BYTE * np.arange(size, dtype=np.uint64), axis=1))
     return Outcome([np.stack(frame) for frame in frames], came["registers"], came["irq"])
 
 
 def expected(
     left: Image, right: Image, config: Config = SMALL, *, floor: int = 0, invalid: int = 0
-) -> NDArray[np.uint32]:
+) -> NDArray[np.uint64]:
     """The words of a frame's results, of the fixed model and plain arithmetic."""
     result = fixed_model.disparity(left, right, config)
-    assert result.confidence is not None
-    code = result.code.astype(int)
-    sure = result.confidence.astype(int)
-    code[(code < Validity.BORDER) & (sure < floor)] = UNSURE
-    value = np.where(np.isin(code, HAS_DISPARITY), result.disparity, invalid)
-    words = value | code << 16 | sure << 24
-    return words.astype(np.uint32)
+    code = result.code.astype(np.uint64)
+    sure = np.zeros_like(code)
+    if result.confidence is not None:
+        sure = result.confidence.astype(np.uint64)
+        code[(code < Validity.BORDER) & (sure < floor)] = UNSURE
+    value = np.where(np.isin(code, HAS_DISPARITY), result.disparity, invalid).astype(np.uint64)
+    return value | code << np.uint64(16) | sure << np.uint64(24)

@@ -13,7 +13,7 @@ from tests.support.broken_video import broken_video
 from tests.support.fault_table import mended
 
 FRAMES = int(os.environ.get("SOFTDEPTH_SOAK", "8"))
-DAMAGED = np.uint32(1 << 23)
+DAMAGED = np.uint64(1 << 23)
 pytestmark = pytest.mark.slow
 
 

@@ -10,6 +10,7 @@ from amaranth.sim import Simulator, SimulatorContext
 
 from softdepth.golden.front.pair import Image
 from softdepth.hdl.axi.core import AxiCore
+from softdepth.spec.axi_options import AxiOptions
 from tests.axi.runs import ADDRESSES, ORDER, SMALL, expected
 from tests.cocotb.scenes import textured
 from tests.support.mutations import mutated
@@ -151,7 +152,7 @@ async def scenario(drive: Driver) -> None:
 
 
 def simulate(core: type[AxiCore]) -> None:
-    dut = core(CONFIG, "wishbone")
+    dut = core(CONFIG, AxiOptions(bus="wishbone"))
 
     async def bench(ctx: SimulatorContext) -> None:
         drive = Driver(ctx, dut)

@@ -8,6 +8,7 @@ import pytest
 
 from softdepth.cli.app import main
 from softdepth.export.axi_package import axi_package
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.registers import registers
 from tests.support.fusesoc import fusesoc
@@ -42,7 +43,7 @@ def test_fusesoc_lints(package: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_fusesoc_lints_every_stage_and_wishbone(tmp_path: Path) -> None:
+def test_fusesoc_lints_every_stage_two_streams_and_wishbone(tmp_path: Path) -> None:
     """With the check, the island test, sixteenths, confidence, filling and both medians."""
     config = Config.preset("robust-small").override(
         ["max_width=64", "max_height=48", "disparities=4", "lanes=4", "pixel=gray8"]
@@ -50,7 +51,8 @@ def test_fusesoc_lints_every_stage_and_wishbone(tmp_path: Path) -> None:
     config.save(tmp_path / "small.toml")
     target = tmp_path / "ip"
     chosen = ["--config", str(tmp_path / "small.toml"), "--name", "depth", "-o", str(target)]
-    main(["export", "--ip", "axi", "--bus", "wishbone", *chosen])
+    streams = ["--inputs", "two", "--skew", "1", "--clocks", "own"]
+    main(["export", "--ip", "axi", "--bus", "wishbone", *streams, *chosen])
     done = fusesoc(target, tmp_path, "lint")
     assert done.returncode == 0, (done.stdout + done.stderr)[-2000:]
 
@@ -110,7 +112,25 @@ def test_the_constraints_name_every_port(package: Path, file: str, every: str) -
         assert set(given.split()) == ports - {"aclk"}
 
 
+@pytest.mark.parametrize(("file", "every"), [("depth.sdc", "*"), ("depth.xdc", "[*]")])
+def test_constraints_of_each_clock(file: str, every: str) -> None:
+    """Every port but the clocks is named once, with its own."""
+    text = axi_package(SMALL, "depth", AxiOptions(inputs="two", clocks="own"))[file]
+    named = {
+        (way, clock): ports.split()
+        for way, clock, ports in re.findall(r"set_(in|out)put_delay +-clock (\w+) .*\{([^{}]*)\}\]", text)
+    }
+    clocks = ["aclk", "s_axis_left_aclk", "s_axis_right_aclk"]
+    assert sorted(re.findall(r"create_clock -name (\w+)", text)) == clocks
+    assert named["in", "s_axis_right_aclk"] == [
+        f"s_axis_right_t{n}" for n in (f"data{every}", "valid", "user", "last")
+    ]
+    assert named["out", "s_axis_left_aclk"] == ["s_axis_left_tready"]
+    assert {"aresetn", "m_axis_tready", f"s_axil_wdata{every}"} <= {*named["in", "aclk"]}
+    assert not any(port.startswith("s_axis_") for port in named["in", "aclk"] + named["out", "aclk"])
+
+
 def test_wishbone_in_place_of_axi_lite() -> None:
-    text = axi_package(SMALL, "depth", "wishbone")["depth_instance.v"]
+    text = axi_package(SMALL, "depth", AxiOptions(bus="wishbone"))["depth_instance.v"]
     assert ".wb_ack(wb_ack)" in text
     assert "s_axil" not in text

@@ -8,17 +8,18 @@ from pathlib import Path
 import pytest
 
 from softdepth.export.axi_package import axi_package
-from softdepth.spec.bus import Bus
+from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.config import Config
 from tests.support.fusesoc import fusesoc
 from tests.support.icarus import needs_icarus
 
 SIZE = ["max_width=64", "max_height=48", "disparities=8", "lanes=4"]
-CORES: dict[str, tuple[Config, Bus]] = {
-    "sad": (Config.preset("sad").override(SIZE), "axi-lite"),
-    "negative": (Config.preset("sad").override([*SIZE, "min_disparity=-3", "pixel=rgb10"]), "axi-lite"),
+TWO = AxiOptions(inputs="two", clocks="own")
+CORES: dict[str, tuple[Config, AxiOptions]] = {
+    "sad": (Config.preset("sad").override(SIZE), DEFAULT),
+    "negative": (Config.preset("sad").override([*SIZE, "min_disparity=-3", "pixel=rgb10"]), TWO),
     # Sixteenths, confidence, check, island, filling and both medians.
-    "robust": (Config.preset("robust-small").override([*SIZE, "pixel=gray12"]), "wishbone"),
+    "robust": (Config.preset("robust-small").override([*SIZE, "pixel=gray12"]), AxiOptions(bus="wishbone")),
 }
 BROKEN = {
     "a bit of the result": (
@@ -37,8 +38,8 @@ BROKEN = {
 @cache
 def package(name: str) -> dict[str, str]:
     """The files of one of `CORES`."""
-    config, bus = CORES[name]
-    return axi_package(config, "depth", bus)
+    config, options = CORES[name]
+    return axi_package(config, "depth", options)
 
 
 def written(name: str, folder: Path) -> Path:

@@ -1,7 +1,16 @@
-# {{ name }}: set the period, in nanoseconds, to your clock's. All ports are synchronous to aclk.
+# {{ name }}: set the period, in nanoseconds, to your clock's.{% if clocks | length == 1 %} All ports are synchronous to aclk.{% else %} Each stream of a view is synchronous
+# to its own clock, all else to aclk. What passes between them are Gray codes and a reset.{% endif %}
+
 set period 10.000
-create_clock -name aclk -period $period [get_ports aclk]
-set_input_delay  -clock aclk [expr {0.5 * $period}] [get_ports {
-{%- for port in ports if port.direction == "in" and port.name != "aclk" %}{{ port.name }}{{ "*" if port.width > 1 }}{{ "" if loop.last else " " }}{% endfor %}}]
-set_output_delay -clock aclk [expr {0.5 * $period}] [get_ports {
-{%- for port in ports if port.direction == "out" %}{{ port.name }}{{ "*" if port.width > 1 }}{{ "" if loop.last else " " }}{% endfor %}}]
+{% for clock in clocks %}
+create_clock -name {{ clock.name }} -period $period [get_ports {{ clock.name }}]
+{% endfor %}
+{% if clocks | length > 1 %}
+set_clock_groups -asynchronous{% for clock in clocks %} -group {{ clock.name }}{% endfor %}
+
+{% endif %}
+{% for clock in clocks %}
+{% for way, names in (("input", clock.inputs), ("output", clock.outputs)) %}
+set_{{ way }}_delay {{ " " if way == "input" }}-clock {{ clock.name }} [expr {0.5 * $period}] [get_ports { {{- names | join(" ") -}} }]
+{% endfor %}
+{% endfor %}

@@ -23,6 +23,9 @@ module {{ name }}_bench;
   );
 
   always #5 aclk = ~aclk;
+{% for stream in streams if stream.clock != "aclk" %}
+  initial #{{ loop.index }} forever #5 {{ stream.clock }} = ~{{ stream.clock }};
+{% endfor %}
 
   integer clock = 0, busy = 0, wrong = 0;
   reg going = 0;
@@ -39,15 +42,19 @@ module {{ name }}_bench;
 
   // What is sent: {tlast, tuser, tdata}.
   reg [{{ bits.s_axis + 1 }}:0] pixels [0:PIXELS-1];
-  integer offered = 0;
-  always @(posedge aclk) if (going && (!s_axis_tvalid || s_axis_tready)) begin
-    s_axis_tvalid <= 0;
-    if (offered < PIXELS && !(offered >= WIDTH * HEIGHT && noise[2])) begin
-      s_axis_tvalid <= 1;
-      {s_axis_tlast, s_axis_tuser, s_axis_tdata} <= pixels[offered];
-      offered <= offered + 1;
+{% for stream in streams %}
+  integer {{ stream.prefix }}_offered = 0;
+  always @(posedge {{ stream.clock }}) if (going && (!{{ stream.prefix }}_tvalid || {{ stream.prefix }}_tready)) begin
+    {{ stream.prefix }}_tvalid <= 0;
+    if ({{ stream.prefix }}_offered < PIXELS && !({{ stream.prefix }}_offered >= WIDTH * HEIGHT && noise[{{ loop.index + 1 }}])) begin
+      {{ stream.prefix }}_tvalid <= 1;
+      {{ stream.prefix }}_tdata <= pixels[{{ stream.prefix }}_offered][{{ stream.low }} +: {{ stream.width }}];
+      {{ stream.prefix }}_tuser <= pixels[{{ stream.prefix }}_offered][{{ bits.s_axis }}];
+      {{ stream.prefix }}_tlast <= pixels[{{ stream.prefix }}_offered][{{ bits.s_axis + 1 }}];
+      {{ stream.prefix }}_offered <= {{ stream.prefix }}_offered + 1;
     end
   end
+{% endfor %}
 
   // What must come back.
   reg [{{ bits.m_axis + 1 }}:0] results [0:PIXELS-1];
@@ -55,7 +62,9 @@ module {{ name }}_bench;
   integer came = 0;
   always @(posedge aclk) if (going) begin
     m_axis_tready <= !(came >= WIDTH * HEIGHT && noise[5]);
-    if (s_axis_tvalid && s_axis_tready) busy <= clock;
+{% for stream in streams %}
+    if ({{ stream.prefix }}_tvalid && {{ stream.prefix }}_tready) busy <= clock;
+{% endfor %}
     if (m_axis_tvalid && m_axis_tready) begin
       busy <= clock;
       came <= came + 1;

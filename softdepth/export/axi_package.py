@@ -10,7 +10,7 @@ from peakrdl_cheader.exporter import CHeaderExporter
 from peakrdl_markdown import MarkdownExporter
 
 from softdepth.export.bench import bench
-from softdepth.export.component import component
+from softdepth.export.component import CLOCK, component
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
@@ -24,7 +24,6 @@ HEADER = "registers.h"
 PAGE = "registers.md"
 PERIOD = 10.0
 """Of the clock in the constraints, in nanoseconds: a figure to begin with."""
-CLOCK = "aclk"
 
 
 def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str]:
@@ -62,7 +61,7 @@ def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str
         REGISTERS: "".join(f"`define {key} {value}\n" for key, value in defined.items()) + SOURCE.read_text(),
     }
     node = address_map(defined)
-    written[f"{name}.xml"] = component(config, name, bus, ports, node)
+    written[f"{name}.xml"] = component(config, name, options.bus, ports, node)
     with tempfile.TemporaryDirectory(prefix="softdepth-") as folder:
         header, page = Path(folder) / HEADER, Path(folder) / PAGE
         CHeaderExporter().export(node, str(header))

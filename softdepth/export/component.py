@@ -15,6 +15,7 @@ from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.templates import render
 
+CLOCK = "aclk"
 STREAM = re.compile(r"(\w+)_(tdata|tvalid|tready|tuser|tlast)")
 WISHBONE = {
     "cyc": "CYC_I",
@@ -84,11 +85,17 @@ def _interfaces(bus: Bus, ports: Sequence[dict[str, Any]]) -> list[Interface]:
             role = "slave" if prefix.startswith("s_") else "master"
             found.setdefault(prefix, Interface(prefix, role, "axis", {})).ports[signal.upper()] = port["name"]
     found |= {each.name: each for each in (_bus(bus, [port["name"] for port in ports]),)}
-    clock = {"ASSOCIATED_BUSIF": ":".join(found), "ASSOCIATED_RESET": "aresetn"}
+    own = {f"{name}_{CLOCK}": name for name in found if f"{name}_{CLOCK}" in {port["name"] for port in ports}}
+    rest = [name for name in found if name not in own.values()]
+    clock = {"ASSOCIATED_BUSIF": ":".join(rest), "ASSOCIATED_RESET": "aresetn"}
     signals = {"vendor": "xilinx.com", "library": "signal"}
     return [
         *found.values(),
-        Interface("aclk", "slave", "clock", {"CLK": "aclk"}, clock, **signals),
+        Interface(CLOCK, "slave", "clock", {"CLK": CLOCK}, clock, **signals),
+        *(
+            Interface(name, "slave", "clock", {"CLK": name}, {"ASSOCIATED_BUSIF": stream}, **signals)
+            for name, stream in own.items()
+        ),
         Interface("aresetn", "slave", "reset", {"RST": "aresetn"}, {"POLARITY": "ACTIVE_LOW"}, **signals),
         Interface(
             "irq", "master", "interrupt", {"INTERRUPT": "irq"}, {"SENSITIVITY": "LEVEL_HIGH"}, **signals

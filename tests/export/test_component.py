@@ -12,6 +12,7 @@ from systemrdl import RDLCompiler
 from systemrdl.node import RegNode
 
 from softdepth.export.axi_package import axi_package
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.spec.registers import registers
@@ -25,7 +26,7 @@ BUSES: tuple[Bus, ...] = ("axi-lite", "wishbone")
 
 @cache
 def package(bus: Bus) -> dict[str, str]:
-    return axi_package(CONFIG, "depth", bus)
+    return axi_package(CONFIG, "depth", AxiOptions(bus=bus))
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +86,22 @@ def test_its_ports_are_the_cores(bus: Bus) -> None:
     streams = {name.removesuffix("_tdata") for name in wanted if name.endswith("_tdata")}
     registers_bus = "s_axil" if bus == "axi-lite" else "wb"
     assert set(interfaces) == streams | {registers_bus, "aclk", "aresetn", "irq"}
+
+
+def test_each_stream_has_its_clock(schema: etree.XMLSchema) -> None:
+    options = AxiOptions(inputs="two", clocks="own")
+    component = etree.fromstring(axi_package(CONFIG, "depth", options)["depth.xml"].encode())
+    schema.assertValid(component)
+    clocks = {
+        texts(interface, "spirit:name")[0]: texts(interface, ".//spirit:parameter/spirit:value")[0]
+        for interface in component.iterfind("spirit:busInterfaces/spirit:busInterface", SPACES)
+        if interface.find("spirit:busType[@spirit:name='clock']", SPACES) is not None
+    }
+    assert clocks == {
+        "aclk": "m_axis:s_axil",
+        "s_axis_left_aclk": "s_axis_left",
+        "s_axis_right_aclk": "s_axis_right",
+    }
 
 
 def test_another_reads_its_registers(tmp_path: Path) -> None:

@@ -38,6 +38,12 @@ class Rectification:
         cx, cy = float(left[0, 2]), float(left[1, 2])
         return Geometry(focal, baseline, float(right[0, 2]) - cx, cx, cy)
 
+    @property
+    def between(self) -> tuple[Matrix, Matrix]:
+        """How the cameras stand to each other: a `Rig`'s rotation and translation."""
+        left, right = self.rotations
+        return right.T @ left, right.T @ np.array([-self.geometry.baseline, 0.0, 0.0])
+
 
 @dataclass(frozen=True, eq=False)
 class Rig:

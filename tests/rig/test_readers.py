@@ -42,6 +42,50 @@ def test_a_key_that_opencv_leaves_out_is_named(tmp_path, key):
         readers.read([rigs.opencv(tmp_path / "c.yml", leave_out=key)])
 
 
+@pytest.mark.parametrize("names", [("Q",), ("P1", "P2"), ("R1", "R2", "P1", "P2", "Q")])
+def test_what_stereo_rectify_gives_is_enough(tmp_path, names):
+    """Of cameras whose principal points differ once rectified, lengths in millimetres."""
+    r1, r2, p1, p2, q, *_ = cv2.stereoRectify(
+        *(rigs.LEFT, rigs.LEFT_LENS, rigs.RIGHT, rigs.RIGHT_LENS, rigs.SIZE),
+        *(rigs.ROTATION, 1000 * rigs.TRANSLATION[:, None]),
+        flags=0,
+    )
+    storage = cv2.FileStorage(str(tmp_path / "c.yml"), cv2.FILE_STORAGE_WRITE)
+    for name, matrix in {"R1": r1, "R2": r2, "P1": p1, "P2": p2, "Q": q}.items():
+        if name in names:
+            storage.write(name, matrix)
+    storage.release()
+    found = readers.read([tmp_path / "c.yml"], 0.001)
+    assert found.rectified
+    geometry = found.rectification.geometry
+    assert abs(geometry.doffs) > 1
+    x, y, z, w = q @ (40, 30, 12, 1)
+    depth = geometry.depth(np.array([[12.0]]), np.ones((1, 1), bool))[0, 0]
+    np.testing.assert_allclose(depth, z / w / 1000, rtol=1e-6)
+    expected = np.array([x / w, y / w]) / 1000
+    at = (np.array([40, 30]) - (geometry.cx, geometry.cy)) / geometry.focal * depth
+    np.testing.assert_allclose(at, expected, rtol=1e-6)
+
+
+def test_a_q_of_no_cameras_is_told(tmp_path):
+    storage = cv2.FileStorage(str(tmp_path / "c.yml"), cv2.FILE_STORAGE_WRITE)
+    storage.write("Q", np.zeros((4, 4)))
+    storage.release()
+    with pytest.raises(InputError, match=r"'Q' in .* focal length of 0"):
+        readers.read([tmp_path / "c.yml"])
+
+
+def test_intrinsics_and_what_stereo_rectify_gives_are_enough(tmp_path):
+    path = rigs.opencv(tmp_path / "c.yml", unit=0.001, leave_out="R")
+    found = Rectifier.of(rigs.rig(), rigs.SIZE).rectification
+    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_APPEND)
+    for number, turn, view in zip("12", found.rotations, found.projections, strict=True):
+        storage.write(f"R{number}", turn)
+        storage.write(f"P{number}", view * (1, 1, 1, 1000))
+    storage.release()
+    same(readers.read([path], 0.001))
+
+
 def test_kalibr(tmp_path):
     same(readers.read([rigs.kalibr(tmp_path / "chain.yaml")]), slice(4))
 
@@ -131,6 +175,14 @@ def test_kitti(tmp_path, first, second):
         ("cam0: [1, 2\n", "is no YAML"),
         ("cam0=[0 0 1; 0 1 1; 0 0 1]\ncam1=[0 0 1; 0 1 1; 0 0 1]\nbaseline=1\n", "focal length"),
         ("%YAML:1.0\n---\nM1: !!opencv-matrix\n  rows: 3\n", "no OpenCV calibration|no key"),
+        ("%YAML:1.0\n---\nother: 1\n", "has no key 'M1', 'P1' or 'Q'"),
+        ("\ufeffcam0=[1 0 1; 0 1 1; 0 0 1]\n", "has no key 'cam1'"),
+        (
+            "%YAML:1.0\n---\nQ: !!opencv-matrix\n  rows: 4\n  cols: 4\n  dt: d\n  data: ["
+            + "0., " * 15
+            + "0.]\n",
+            "'Q' in .* focal length of 0",
+        ),
         ("cam0=[nan 0 1; 0 1 1; 0 0 1]\ncam1=[1 0 1; 0 1 1; 0 0 1]\nbaseline=1\n", "not finite"),
     ],
 )

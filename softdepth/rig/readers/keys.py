@@ -13,7 +13,7 @@ from softdepth.spec.errors import InputError
 def text(path: Path) -> str:
     """A calibration file's text; raises `InputError` where there is none."""
     try:
-        return path.read_text()
+        return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is no text"
         raise InputError(f"'{path}' cannot be read: {reason}", "name a calibration file") from error

@@ -23,6 +23,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "R2": ("R2",),
     "P1": ("P1",),
     "P2": ("P2",),
+    "Q": ("Q",),
 }
 """The names of OpenCV's sample first, then what other programs call them."""
 
@@ -43,19 +44,39 @@ def read(paths: Sequence[Path], unit: float) -> Rig:
         width, height = keys.numbers(found, "size", path, (2,)).astype(int)
         size = (int(width), int(height))
     rectification = None
-    if all(name in found for name in ("R1", "R2", "P1", "P2")):
-        turns = [keys.numbers(found, name, path, (3, 3)) for name in ("R1", "R2")]
-        views = [keys.numbers(found, name, path, (3, 4)) for name in ("P1", "P2")]
-        for view in views:
-            view[:, 3] *= unit
-        if "M1" not in found and "R" not in found:
-            return Rig.of_rectified(views[0], views[1], size)
-        rectification = Rectification((turns[0], turns[1]), (views[0], views[1]))
+    raw = any(name in found for name in ("M1", "M2", "R"))
+    if "P1" in found and "P2" in found:
+        views = [keys.numbers(found, name, path, (3, 4)) * (1, 1, 1, unit) for name in ("P1", "P2")]
+        if not raw:
+            return Rig.of_rectified(*views, size)
+        if "R1" in found and "R2" in found:
+            turns = [keys.numbers(found, name, path, (3, 3)) for name in ("R1", "R2")]
+            rectification = Rectification((turns[0], turns[1]), (views[0], views[1]))
+    elif "Q" in found and not raw:
+        return Rig.of_rectified(*_projections(keys.numbers(found, "Q", path, (4, 4)), path, unit), size)
+    if not found.keys() - {"size"}:
+        raise InputError(f"'{path}' has no key 'M1', 'P1' or 'Q'", "give a whole calibration")
     matrices = (keys.numbers(found, name, path, (3, 3)) for name in ("M1", "M2"))
     lenses = (keys.numbers(found, name, path, (-1,)) for name in ("D1", "D2"))
     left, right = (Camera(matrix, lens, size=size) for matrix, lens in zip(matrices, lenses, strict=True))
+    if rectification is not None and "R" not in found:
+        return Rig(left, right, *rectification.between, rectification)
     rotation = keys.numbers(found, "R", path, (3, 3))
     return Rig(left, right, rotation, unit * keys.numbers(found, "T", path, (3,)), rectification)
+
+
+def _projections(q: Matrix, path: Path, unit: float) -> tuple[Matrix, Matrix]:
+    """The projections that `cv2.stereoRectify` made its Q of; raises `InputError` where it is none."""
+    focal, per_baseline = q[2, 3], q[3, 2]
+    if focal <= 0 or per_baseline <= 0:
+        raise InputError(
+            f"'Q' in '{path}' has a focal length of {focal:g} and 1 / baseline of {per_baseline:g}",
+            "give the Q of cameras side by side, the left one first",
+        )
+    left, right = (np.array([[focal, 0, -q[0, 3], 0], [0, focal, -q[1, 3], 0], [0, 0, 1, 0.0]]) for _ in "lr")
+    right[0, 2] += q[3, 3] / per_baseline
+    right[0, 3] = -focal * unit / per_baseline
+    return left, right
 
 
 def _matrices(path: Path) -> dict[str, Matrix]:

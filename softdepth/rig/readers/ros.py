@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from softdepth.rig.camera import Camera, Lens, Matrix
 from softdepth.rig.readers import keys
 from softdepth.rig.rig import Rectification, Rig
@@ -24,8 +22,7 @@ def read(left: Path, right: Path) -> Rig:
     """
     (one, r1, p1), (two, r2, p2) = _camera(left), _camera(right)
     found = Rectification((r1, r2), (p1, p2))
-    across = np.array([-found.geometry.baseline, 0.0, 0.0])
-    return Rig(one, two, r2.T @ r1, r2.T @ across, found)
+    return Rig(one, two, *found.between, found)
 
 
 def _camera(path: Path) -> tuple[Camera, Matrix, Matrix]:

@@ -34,12 +34,13 @@ INPUTS = ("clk", "rst", "i_valid", "i_payload", "o_ready")
 OUTPUTS = ("i_ready", "o_valid", "o_payload", "status")
 
 VERILATOR_FLAGS = (
-    *("--cc", "--exe", "--vpi", "--no-timing", "--top-module", TOP, "--prefix", "Vtop", "-o", TOP),
+    *("--cc", "--exe", "--no-timing", "--top-module", TOP, "--prefix", "Vtop", "-o", TOP),
     *("--timescale", "1ns/1ns"),
-    *("-O3", "--x-assign", "fast", "--x-initial", "fast", "--no-assert"),
+    *("-O3", "--x-assign", "fast", "--no-assert"),
     # Amaranth's Verilog is checked by Amaranth; the style of generated text is nobody's concern.
     *("-Wno-lint", "-Wno-style"),
 )
+COCOTB_FLAGS = ("--vpi", "--x-initial", "fast")
 MAKE_FLAGS = ("OPT_FAST=-Og", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
 
 LEAST_ROOM = 1 << 20
@@ -55,38 +56,54 @@ class Build:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Bench:
+    """A bench in C++, and what Verilator is told besides."""
+
+    text: str
+    flags: tuple[str, ...]
+
+
 def build(
     verilog: str,
     *,
     waves: bool = False,
     inputs: Sequence[str] = INPUTS,
     outputs: Sequence[str] = OUTPUTS,
+    bench: Bench | None = None,
 ) -> Build:
     """Build a design whose top module is `TOP`, or take it from the cache.
 
     `inputs` and `outputs` are the ports that a bench drives and reads: by default the core's. With
-    `waves` the program can record every signal, and runs slower. Builds at the same time are safe: the
-    second waits for the first. Raises `ToolError` for a missing tool or a failed build.
+    `waves` the program can record every signal, and runs slower. With a `bench` in C++ there is no Python in
+    it. Builds at the same time are safe: the second waits for the first. Raises `ToolError` for a missing
+    tool or a failed build.
     """
     start = time.monotonic()
     tools = find_toolchain()
-    flags = (*VERILATOR_FLAGS, *(("--trace",) if waves else ()))
-    ports = _visible_ports(inputs, outputs)
+    flags = (*VERILATOR_FLAGS, *(("--trace",) if waves else ()), *(bench.flags if bench else COCOTB_FLAGS))
+    ports = "" if bench else _visible_ports(inputs, outputs)
     settings = (*flags, *MAKE_FLAGS, *_versions(tools))
     runtime = cache_folder() / "runtime" / _digest(settings)
-    folder = cache_folder() / "sim" / _digest((verilog, ports, *settings))
+    folder = cache_folder() / "sim" / _digest((verilog, bench.text if bench else ports, *settings))
     with build_cache.locked(folder):
         cached = (folder / TOP).exists()
         if not cached:
             with _room():
-                _build(verilog, ports, flags, tools, folder, runtime)
+                _build(verilog, ports, flags, tools, folder, runtime, bench)
     if not cached:
         build_cache.make_room(folder.parent)
     return Build(folder, cached, time.monotonic() - start)
 
 
 def _build(
-    verilog: str, ports: str, flags: Sequence[str], tools: Toolchain, folder: Path, runtime: Path
+    verilog: str,
+    ports: str,
+    flags: Sequence[str],
+    tools: Toolchain,
+    folder: Path,
+    runtime: Path,
+    bench: Bench | None,
 ) -> None:
     # make refuses paths with spaces, which a user's cache folder may have.
     with (
@@ -95,12 +112,16 @@ def _build(
     ):
         work = Path(name)
         (work / "top.v").write_text(verilog)
-        (work / "ports.vlt").write_text(ports)
-        libraries = cocotb_tools.config.libs_dir
-        main = cocotb_tools.config.share_dir / "lib" / "verilator" / "verilator.cpp"
-        link = f"-Wl,-rpath,{libraries} -L{libraries} -lcocotbvpi_verilator"
-        verilate = [tools.verilator, *flags, "--Mdir", "obj", "-LDFLAGS", link, main, "ports.vlt", "top.v"]
-        _run(verilate, work, tools, log)
+        if bench:
+            (work / "bench.cpp").write_text(bench.text)
+            sources: list[str | Path] = ["bench.cpp", "top.v"]
+        else:
+            (work / "ports.vlt").write_text(ports)
+            libraries = cocotb_tools.config.libs_dir
+            main = cocotb_tools.config.share_dir / "lib" / "verilator" / "verilator.cpp"
+            link = f"-Wl,-rpath,{libraries} -L{libraries} -lcocotbvpi_verilator"
+            sources = ["-LDFLAGS", link, main, "ports.vlt", "top.v"]
+        _run([tools.verilator, *flags, "--Mdir", "obj", *sources], work, tools, log)
         objects = work / "obj"
         _reuse_runtime(runtime, objects)
         jobs = f"-j{os.cpu_count() or 1}"

@@ -14,14 +14,15 @@ CLOCK, RESET = "clk", "rst"
 """Ports that a component has beside its own: those of the clock domain that it does not make itself."""
 
 
-def to_rtlil(component: Component, name: str) -> str:
+def to_rtlil(component: Component, name: str, *, sources: bool = False) -> str:
     """RTLIL of a component, whose top module is called `name`.
 
     Ports are ``clk``, ``rst`` (synchronous, active high) and the component's own, nested names joined by
-    ``_``: ``i_payload``, ``i_valid``, ... Names with ``__`` are not legal in VHDL.
+    ``_``: ``i_payload``, ``i_valid``, ... Names with ``__`` are not legal in VHDL. With `sources`, every cell
+    tells the lines that made it.
     """
     with _undisturbed():
-        return rtlil.convert(component, name=name, ports=_given(ports_of(component)), emit_src=False)
+        return rtlil.convert(component, name=name, ports=_given(ports_of(component)), emit_src=sources)
 
 
 @dataclass(frozen=True)

@@ -126,7 +126,7 @@ class FrameGuard(wiring.Component):
         must_end = Signal()  # and cannot be any wider
         first_line = Signal()  # the frame's first line has begun, and no other
         previous = Signal.like(x, reset_less=True)  # the column before it
-        second_last = Signal.like(x, init=config.max_width - 2, reset_less=True)  # of the frame's lines
+        second_last = Signal.like(x, init=config.max_width - 2)  # of the frame's lines
         support = config.reach_left + config.reach_right
         completes, inner, first_inner = Signal(), Signal(), Signal()
 

@@ -5,6 +5,7 @@ What is due is the fixed model's, and for broken video the fault table's. Nothin
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import chain
 from random import Random
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from softdepth.golden.fixed_model import disparity
 from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
+from softdepth.hdl.asked import asked
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.signatures import Status, result_layout
 from softdepth.sim.trials import Due, Trial
@@ -136,9 +138,11 @@ def full_rate(config: Config, size: tuple[int, int], seed: int) -> Trial:
     return trial if config.whole_frame else replace(trial, limit=last_clock(config, size[0], len(trial.sent)))
 
 
+@cache
 def last_clock(config: Config, width: int, pixels: int) -> int:
     """When the last result is there at the latest: nothing takes longer than a pixel's steps."""
-    latency = StereoCore(config).full_rate_latency
+    with asked():
+        latency = StereoCore(config).full_rate_latency
     assert latency is not None
     behind = config.reach_rows * width + config.reach_right
     return (pixels - 1 + behind) * config.steps + latency

@@ -9,6 +9,7 @@ from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
 from softdepth.hdl.post.island import Island
+from softdepth.hdl.post.placed import Placed
 from softdepth.hdl.post.stages import post_stages
 from softdepth.hdl.signatures import STEERING, Status, pair_layout, result_layout, settings_ports
 from softdepth.hdl.winners.band_winners import BandWinners
@@ -86,6 +87,10 @@ class StereoCore(wiring.Component):
             m.submodules[name] = stage
             wiring.connect(m, results, stage.i)
             results = stage.o
+        if self._config.min_disparity and isinstance(self._winners, WholeWinners):
+            m.submodules.placed = placed = Placed(self._config, results.payload.shape())
+            wiring.connect(m, results, placed.i)
+            results = placed.o
         if self._takes_settings:
             self._set(m)
         found, o = results.payload, self.o.payload

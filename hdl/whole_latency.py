@@ -1,18 +1,14 @@
-"""When the results of a core without a border band leave it: from which pixel, and how many clocks after."""
+"""When the results of a core with descriptors leave it: from which pixel, and how many clocks after."""
 
 from dataclasses import dataclass
-
-from amaranth.hdl import unsigned
 
 from softdepth.hdl.asked import asked
 from softdepth.hdl.costs.comparison import plan
 from softdepth.hdl.costs.rooms import costs_of, drain_of
-from softdepth.hdl.front.census import CENSUS_REACH
-from softdepth.hdl.front.census import Census as CensusBlock
-from softdepth.hdl.front.descriptors import GRADIENT_REACH
+from softdepth.hdl.costs.whole_costs import WholeCosts
+from softdepth.hdl.front.descriptors import descriptors_latency, window_reach
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.gradient import Gradient as GradientBlock
 from softdepth.hdl.front.tall_window import TallWindow
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
@@ -24,7 +20,8 @@ from softdepth.hdl.post.sixteenths import Sixteenths
 from softdepth.hdl.post.stages import masked_medians_of, median_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
-from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.hdl.winners.number import number_latency
+from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import Config
 from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
 
@@ -55,13 +52,13 @@ class WholeLatency:
     def of(cls, config: Config) -> "WholeLatency":
         """Derived from what the core's blocks state."""
         reach, post = plan(config), config.post
-        gradients = sum(c.cap is not None for c in reach.comparisons)
-        ahead = CENSUS_REACH if gradients < len(reach.comparisons) else GRADIENT_REACH
+        ahead = window_reach(reach.rows)
+        late = abs(config.min_disparity)  # columns that come in before the first that the views share
         # A line's last pixel waits for the next to come, which may be the frame's end; the right view's
         # winners are known so many columns later, which are the next line's.
-        column = config.disparities - 2 + ahead if post.check else 0
+        column = config.disparities - 2 + ahead + late if post.check else 0
         with asked():
-            clocks = _up_to_winners(config, ahead, gradient=gradients > 0) + _behind(config)
+            clocks = _up_to_winners(config, ahead) + _behind(config)
         return cls(
             rows=reach.below + post.below + ahead + 1,
             column=column,
@@ -73,24 +70,27 @@ class WholeLatency:
         )
 
     def frame_clocks(self, width: int, height: int, steps: int) -> int:
-        """From a frame's first pixel to the next one's, where pixels are always on offer."""
+        """From a frame's first pixel to the next one's, where pixels are always on offer.
+
+        At most so many where candidates do not begin at 0, whose columns are dropped a clock each.
+        """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
         medians = (width + self.masked) * (height + self.masked) * min(steps, 2)
         return max(costs, medians)
 
 
-def _up_to_winners(config: Config, ahead: int, *, gradient: bool) -> int:
+def _up_to_winners(config: Config, ahead: int) -> int:
     steps, post = config.steps, config.post
     costs = costs_of(config, Front(config).layout)
-    cost, whole = unsigned(cost_bits(costs.maximum)), unsigned(0)
-    tree = ArgminTree(cost, whole, config.lanes)
-    sequence = ArgminSequence(candidate_layout(cost, whole, config.disparities), steps)
+    assert isinstance(costs, WholeCosts)
+    num, den = (costs.layout.members[name] for name in ("num", "den"))
+    tree = ArgminTree(num, den, config.lanes)
+    sequence = ArgminSequence(candidate_layout(num, den, config.disparities), steps)
     front = Front.latency + FrameEnds.latency
-    described = (
-        TallWindow.latency + (GradientBlock.latency if gradient else CensusBlock.latency) + QUEUE_LATENCY
-    )
+    described = TallWindow.latency + descriptors_latency(plan(config).rows) + QUEUE_LATENCY
     judged = tree.latency + sequence.latency + steps
-    judged += Neighbours(config.lanes, steps, costs.maximum).latency
+    judged += Neighbours(config.lanes, steps, costs.layout).latency
+    judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
     checked = LeftRight.latency if post.check else ahead + plan(config).right * steps
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
@@ -103,7 +103,7 @@ def _behind(config: Config) -> int:
     def window(columns: int, latency: int) -> int:
         return columns + Window.latency + latency + QUEUE_LATENCY
 
-    clocks = 0
+    clocks = max(-config.min_disparity, 0)  # border results that follow
     if post.island:
         clocks += window(ISLAND_REACH, Island.latency)
     if post.fill:

@@ -14,6 +14,7 @@ import numpy as np
 from softdepth.golden import fixed_model
 from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
+from softdepth.hdl.costs.comparison import by_windows
 from softdepth.sim.compare import Mismatch, mismatches
 from softdepth.spec.config import Config, Sad
 from softdepth.spec.validity import Validity
@@ -46,7 +47,7 @@ class _Frame:
 
     def stage(self, found: Mismatch) -> str:
         """The stage that one of its mismatches speaks of, and why."""
-        if self._config.whole_frame:
+        if not by_windows(self._config):
             return self._stage_of_whole(found)
         if found.got.code != found.expected.code:
             return "sequencer (validity code)"
@@ -68,6 +69,8 @@ class _Frame:
         """The last stage behind the winners without whose work the result would be as it came out."""
         if found.got.code != found.expected.code:
             codes = {found.got.code, found.expected.code}
+            if Validity.BORDER in codes:
+                return "border band"
             if Validity.ISLAND in codes:
                 return "island"
             if Validity.NOTHING in codes:

@@ -4,14 +4,15 @@ from amaranth.hdl import Cat, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.arithmetic.pipeline import Pipeline, travelling
 from softdepth.hdl.costs.bundle import cost_ports
 from softdepth.hdl.costs.cost import fraction_layout
 from softdepth.hdl.costs.lane import Lane, column_layout
+from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.frame_guard import item_layout
 from softdepth.hdl.front.line_buffer import LineBuffer
-from softdepth.hdl.front.right_columns import RightColumns, candidate
+from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.sequencer import Sequencer, tags_layout
 from softdepth.hdl.memory.delay import Delay
 from softdepth.spec.config import Config
@@ -96,7 +97,7 @@ class BandCosts(wiring.Component):
             with m.If(begins & occurs["first"][looked_up - 1]):
                 m.d.sync += place.eq(0)
 
-        near = self._near(m, control.at(step, self._criteria_time - 1))
+        near = near_lanes(m, config, control.at(step, self._criteria_time - 1).value)
         m.submodules.exclusion = exclusion = Exclusion(config)
         judged = cost_time - Exclusion.latency
         m.d.comb += [
@@ -150,15 +151,3 @@ class BandCosts(wiring.Component):
         m.submodules.late = late = Delay(self._config.pixel.size, abs(shift))
         m.d.comb += [late.en.eq(load), late.i.eq(item.left if shift < 0 else item.right)]
         return (late.o, item.right) if shift < 0 else (item.left, late.o)
-
-    def _near(self, m: Module, step: Word) -> list[Signal]:
-        """For each lane, one clock after ``step``: the compensating rule's bound is reached."""
-        config = self._config
-        near = []
-        bound = config.compensation.from_disparity - config.min_disparity
-        for lane in range(config.lanes):
-            near.append(Signal(name=f"near_{lane}", reset_less=True))
-            # The step's candidate is `farthest - step`.
-            farthest = candidate(config, lane, 0)
-            m.d.sync += near[lane].eq(step.value + bound <= farthest)
-        return near

@@ -1,4 +1,4 @@
-"""What a criterion without a border band compares, and over which rows and columns it sums."""
+"""What a criterion compares that is summed down columns, and over which rows and columns it sums."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -7,10 +7,21 @@ from typing import Any
 from amaranth.hdl import Shape, unsigned
 from amaranth.lib import wiring
 
-from softdepth.hdl.costs.criteria.unlikeness import GradientDifference, Hamming
-from softdepth.spec.config import Config
-from softdepth.spec.criteria import RECIPROCAL_BITS, SUPPORT_SHIFT, Census, Gradient
+from softdepth.hdl.costs.criteria.unlikeness import ColourDifference, GradientDifference, Hamming
+from softdepth.spec.config import Config, PixelFormat
+from softdepth.spec.criteria import (
+    GRADIENT_CAP,
+    RECIPROCAL_BITS,
+    SUPPORT_SHIFT,
+    AnyCriterion,
+    Census,
+    Gradient,
+    Sad,
+)
 from softdepth.spec.registry import Registry
+
+CENSUS, COLOUR = "census", "colour"
+"""Descriptors that are no gradients: a pixel's census, and the pixel itself."""
 
 LIKE_BITS = 8
 """Bits of the values in which a configuration says what colours are alike."""
@@ -22,12 +33,13 @@ class Comparison:
 
     Members
     -------
-    field : which descriptor; criteria of one core have different ones.
+    field : which descriptor.
     shape : of that.
     rows : rows that are summed.
-    reach : columns to either side of the pixel.
+    reach : columns to either side of the window's centre.
     pixel_maximum : the largest difference of a pixel.
-    differences : makes a block that compares two descriptors, with the ports of `Hamming`.
+    block, parameters : what compares two descriptors, with the ports of `Hamming`.
+    dx : columns from the pixel to the window's centre, to the right.
     spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
     own_shift : bits by which the value is more than the sum.
     cap : the bound of the gradient that is its descriptor; None where that is the census.
@@ -39,7 +51,9 @@ class Comparison:
     rows: int
     reach: int
     pixel_maximum: int
-    differences: Callable[[], wiring.Component]
+    block: Callable[..., wiring.Component]
+    parameters: tuple[Any, ...]
+    dx: int = 0
     taps: int = 0
     spacing: int = 0
     like: int = 0
@@ -53,20 +67,35 @@ class Comparison:
         """The largest sum of a column."""
         return self.rows * self.pixel_maximum
 
+    @property
+    def ahead(self) -> int:
+        """Columns to the right of the pixel that its value depends on; negative where it has none there."""
+        return self.reach + self.dx
 
-COMPARISONS: Registry[Callable[[Any, int], Comparison]] = Registry("criterion's comparison")
-"""Of each kind without a border band: from the criterion, and its number in the configuration."""
+    @property
+    def column(self) -> tuple[Any, ...]:
+        """What its columns are made of: criteria that agree in this share their sums."""
+        return self.field, self.new, self.old, self.block, self.parameters
+
+    def differences(self) -> wiring.Component:
+        """A block that compares two descriptors."""
+        return self.block(*self.parameters)
 
 
-def _census(criterion: Census, number: int) -> Comparison:
+COMPARISONS: Registry[Callable[[Any, PixelFormat], Comparison]] = Registry("criterion's comparison")
+"""Of each kind that is summed down columns: from the criterion, and what pixels there are."""
+
+
+def _census(criterion: Census, pixel: PixelFormat) -> Comparison:
     taps, spacing = (criterion.taps, criterion.spacing) if criterion.taps > 1 else (0, 0)
     return Comparison(
-        field="census",
+        field=CENSUS,
         shape=unsigned(criterion.bits),
         rows=criterion.rows,
         reach=taps // 2 * spacing,
         pixel_maximum=criterion.bits,
-        differences=lambda: Hamming(criterion.bits, criterion.neutral),
+        block=Hamming,
+        parameters=(criterion.bits, criterion.neutral),
         taps=taps,
         spacing=spacing,
         like=criterion.like,
@@ -74,22 +103,47 @@ def _census(criterion: Census, number: int) -> Comparison:
     )
 
 
-def _gradient(criterion: Gradient, number: int) -> Comparison:
-    largest, cut = 2 * criterion.cap, criterion.truncation
-    shape = Shape.cast(range(-criterion.cap, criterion.cap + 1))
-    return Comparison(
-        field=f"gradient_{number}",
-        shape=shape,
+def _gradient(criterion: Gradient, pixel: PixelFormat) -> Comparison:
+    return _of_gradient(
+        criterion.cap,
+        criterion.truncation,
+        criterion.neutral,
         rows=criterion.rows,
         reach=criterion.columns // 2,
-        pixel_maximum=max(min(cut, largest), criterion.neutral),
-        differences=lambda: GradientDifference(shape, largest, cut, criterion.neutral),
-        cap=criterion.cap,
+    )
+
+
+def _of_gradient(cap: int, truncation: int, neutral: int, **window: int) -> Comparison:
+    shape = Shape.cast(range(-cap, cap + 1))
+    return Comparison(
+        field=f"gradient_{cap}",
+        shape=shape,
+        pixel_maximum=max(min(truncation, 2 * cap), neutral),
+        block=GradientDifference,
+        parameters=(shape, 2 * cap, truncation, neutral),
+        cap=cap,
+        **window,
+    )
+
+
+def _sad(criterion: Sad, pixel: PixelFormat) -> Comparison:
+    """What lies outside, and a candidate without a partner, is nothing that a result depends on."""
+    window = {"rows": criterion.window, "reach": criterion.radius, "dx": criterion.dx}
+    if criterion.source == "gradient":
+        return _of_gradient(GRADIENT_CAP, 2 * GRADIENT_CAP, 0, **window)
+    return Comparison(
+        field=COLOUR,
+        shape=unsigned(pixel.size),
+        pixel_maximum=pixel.channels * pixel.maximum,
+        block=ColourDifference,
+        parameters=(pixel.channels, pixel.bits),
+        **window,
     )
 
 
 COMPARISONS.register("census", _census)
 COMPARISONS.register("gradient", _gradient)
+COMPARISONS.register("sad", _sad)
 
 
 @dataclass(frozen=True)
@@ -109,16 +163,42 @@ class Plan:
             found.setdefault(c.field, set()).update((c.new, c.old))
         return {field: tuple(sorted(rows)) for field, rows in found.items()}
 
+    @property
+    def columns(self) -> tuple[Comparison, ...]:
+        """The comparisons whose columns are summed: of those that share them, the first."""
+        return tuple({c.column: c for c in reversed(self.comparisons)}[key] for key in self._keys)
+
+    @property
+    def _keys(self) -> list[tuple[Any, ...]]:
+        return list(dict.fromkeys(c.column for c in self.comparisons))
+
+    def column_of(self, comparison: Comparison) -> str:
+        """Where its column sums are among those of `columns`."""
+        return str(self._keys.index(comparison.column))
+
 
 MINIMUM_RIGHT = 4
 """Slots that a line has beyond its pixels at least: running sums look a place up before the row above is done
 where lines are shorter."""
 
 
+def by_windows(config: Config) -> bool:
+    """Whether a core compares windows of pixels as they are: of colours, with nothing behind the winners."""
+    return (
+        not config.post.any
+        and (config.cost == "fuzzy" or len(config.criteria) == 1)
+        and all(_of_pixels(c) for c in config.criteria)
+    )
+
+
+def _of_pixels(criterion: AnyCriterion) -> bool:
+    return criterion.kind not in COMPARISONS or (isinstance(criterion, Sad) and criterion.source == "colour")
+
+
 def plan(config: Config) -> Plan:
-    """The comparisons of a configuration whose criteria have no border band."""
-    stated = [COMPARISONS[c.kind](c, number) for number, c in enumerate(config.criteria)]
+    """The comparisons of a configuration whose criteria are summed down columns."""
+    stated = [COMPARISONS[c.kind](c, config.pixel) for c in config.criteria]
     below = max(c.rows // 2 for c in stated)
     found = tuple(replace(c, new=below - c.rows // 2, old=below + c.rows // 2 + 1) for c in stated)
-    right = max(MINIMUM_RIGHT, *(c.reach for c in found))
+    right = max(MINIMUM_RIGHT, *(c.ahead for c in found))
     return Plan(found, below, right, max(c.old for c in found))

@@ -3,7 +3,9 @@
 from amaranth.lib import data
 
 from softdepth.hdl.costs.band_costs import BandCosts
+from softdepth.hdl.costs.comparison import by_windows
 from softdepth.hdl.costs.whole_costs import WholeCosts
+from softdepth.hdl.front.overlap import from_zero
 from softdepth.spec.config import Config
 
 
@@ -14,9 +16,9 @@ def costs_of(config: Config, compared: data.StructLayout) -> BandCosts | WholeCo
     ----------
     compared : what the front gives of each pixel.
     """
-    if not config.whole_frame:
+    if by_windows(config):
         return BandCosts(config)
-    return WholeCosts(config, compared, config.pixel.channels, drain=drain_of(config))
+    return WholeCosts(from_zero(config), compared, config.pixel.channels, drain=drain_of(config))
 
 
 def drain_of(config: Config) -> int:

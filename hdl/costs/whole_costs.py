@@ -1,6 +1,6 @@
-"""Descriptors in, the costs of all candidates out: the room of criteria without a border band."""
+"""Descriptors in, the costs of all candidates out: the room of criteria that are summed down columns."""
 
-from amaranth.hdl import Module, Signal, Value, unsigned
+from amaranth.hdl import Const, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In
 
@@ -9,12 +9,15 @@ from softdepth.hdl.costs.bundle import cost_ports
 from softdepth.hdl.costs.comparison import LIKE_BITS, plan
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.criteria.support import SupportWeights
+from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.costs.whole_lane import (
     LaneDifferences,
     LaneSums,
     columns_layout,
     pixels_layout,
+    row_of,
     rows_layout,
+    supports_layout,
 )
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.right_columns import RightColumns
@@ -22,7 +25,6 @@ from softdepth.hdl.front.slots import Slots
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.stage import delayed
-from softdepth.hdl.winners.shapes import cost_bits
 from softdepth.spec.config import Config
 
 COLUMN_TIME = 2
@@ -33,22 +35,32 @@ GROUP = 16
 """Lanes whose running sums lie in one memory."""
 
 
-def tags_layout(colour_bits: int) -> data.StructLayout:
-    """Of the pixel that a slot judges: whether there is one, with all its candidates, and its colour."""
+def tags_layout(config: Config) -> data.StructLayout:
+    """Of the pixel that a slot judges: whether there is one, in the border band, with all its candidates; and
+    its colour."""
     return data.StructLayout(
-        {"emits": 1, "full": 1, "colour": unsigned(colour_bits), **dict.fromkeys(MARKERS, 1)}
+        {
+            "emits": 1,
+            "border": int(not config.whole_frame),
+            "full": 1,
+            "colour": config.pixel.size,
+            **dict.fromkeys(MARKERS, 1),
+        }
     )
 
 
 class WholeCosts(wiring.Component):
-    """Judges the candidates of every pixel, ``lanes`` a clock, by criteria that have no border band.
+    """Judges the candidates of every pixel, ``lanes`` a clock, by criteria that are summed down columns.
 
     ::
 
-        i > slots > right columns > differences > running sums > supports, boxes > costs
+        i > slots > right columns > differences > running sums > supports, boxes > sum or inference > costs
 
     A slot of ``steps`` clocks for each pixel, and more beyond the ends of lines and frames (`Slots`). What
-    lies outside the frame counts 0, and a candidate without a partner a constant.
+    lies outside the frame counts 0, and a candidate without a partner a constant. Where a criterion has a
+    border band, the pixels in it have no candidates, and the others those that have a partner outside of it.
+
+    Candidates begin at 0: a configuration with others is `from_zero` and sees the views' `Overlap`.
 
     Members
     -------
@@ -59,15 +71,15 @@ class WholeCosts(wiring.Component):
     def __init__(self, config: Config, descriptors: data.StructLayout, channels: int, *, drain: int) -> None:
         self._config, self._descriptors, self._channels = config, descriptors, channels
         self._plan = plan(config)
-        self._sums = [LaneSums(self._plan, config.steps) for _ in range(config.lanes)]
-        self.maximum = self._sums[0].maximum
+        self._sums = [LaneSums(config, self._plan) for _ in range(config.lanes)]
+        self.layout = self._sums[0].layout
         self._drain = drain
         self._colour_bits = descriptors["colour"].width
-        cost, tags = unsigned(cost_bits(self.maximum)), tags_layout(self._colour_bits)
+        tags = tags_layout(config)
         super().__init__(
             {
                 "i": In(stream.Signature(descriptors)),
-                **cost_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=tags),
+                **cost_ports(lanes=config.lanes, steps=config.steps, cost=self.layout, tags=tags),
             }
         )
 
@@ -93,6 +105,7 @@ class WholeCosts(wiring.Component):
             below=plan_.below,
             history=plan_.history,
             drain=self._drain,
+            first=config.reach_left,
         )
         m.d.comb += [
             slots.i.valid.eq(self.i.valid),
@@ -117,16 +130,13 @@ class WholeCosts(wiring.Component):
 
         # A pixel's column in both views: the row that enters the sums, and the one that leaves them.
         row_layout = rows_layout(plan_)
-        lags = plan_.rows
         left, right = Signal(row_layout), Signal(row_layout)
         for view, columns in (("left", left), ("right", right)):
             held = at(Value.cast(slot.payload[view]), column_time, view)
             fields = data.View(self._descriptors[view].shape, held)
-            for k, c in enumerate(plan_.comparisons):
-                for row, lag in enumerate((c.new, c.old)):
-                    m.d.comb += Value.cast(columns[str(k)][row]).eq(
-                        Value.cast(fields[c.field][lags[c.field].index(lag)])
-                    )
+            for field, rows in plan_.rows.items():
+                for k, lag in enumerate(rows):
+                    m.d.comb += Value.cast(columns[row_of(field, lag)]).eq(Value.cast(fields[field][k]))
         m.submodules.right = ring = RightColumns(config, row_layout)
         m.d.comb += [
             ring.valid.eq(valid[column_time]),
@@ -160,7 +170,10 @@ class WholeCosts(wiring.Component):
         outside = at(~slot.inside, place_time, "outside")
 
         colour = at(Value.cast(slot.payload.colour), column_time, "colour")
-        weights, reciprocal = self._weights(m, colour, first[column_time], at(slot.inside, column_time, "in"))
+        inside = at(slot.inside, column_time, "in")
+        supports = Signal(supports_layout(plan_))
+        self._weights(m, colour, first[column_time], inside, supports)
+        border = self._border(m, slots)
         centre = self._centre(m, colour, first[column_time])
         differences = []
         for k in range(config.lanes):
@@ -170,14 +183,16 @@ class WholeCosts(wiring.Component):
                 lane.left.eq(left),
                 lane.right.eq(ring.columns[k]),
                 lane.absent.eq(absent.lanes[k]),
-                *(lane.new_inside[j].eq(news[c.new]) for j, c in enumerate(plan_.comparisons)),
-                *(lane.old_inside[j].eq(news[c.old]) for j, c in enumerate(plan_.comparisons)),
+                *(lane.new_inside[j].eq(news[c.new]) for j, c in enumerate(plan_.columns)),
+                *(lane.old_inside[j].eq(news[c.old]) for j, c in enumerate(plan_.columns)),
             ]
         columns_of, pixels_of = columns_layout(plan_), pixels_layout(plan_)
-        emits = at(slot.emits, cost_time, "emits")
+        judged = at(slot.emits & ~border, cost_time, "judged")
+        step = at(slots.step, cost_time, "step")
+        near = near_lanes(m, config, at(slots.step, sum_time + self._sums[0].criteria_latency - 1, "near"))
         for base in range(0, config.lanes, GROUP):
             lanes = range(base, min(base + GROUP, config.lanes))
-            comparisons = [c for _ in lanes for c in plan_.comparisons]
+            comparisons = [c for _ in lanes for c in plan_.columns]
             m.submodules[f"running_{base}"] = running = RunningSums(
                 [c.column_maximum for c in comparisons],
                 [c.pixel_maximum for c in comparisons],
@@ -198,48 +213,60 @@ class WholeCosts(wiring.Component):
                     running.old.as_value()[new].eq(differences[k].old.as_value()),
                     sums.valid.eq(valid[sum_time]),
                     sums.columns.as_value().eq(running.o.as_value()[low:high]),
-                    sums.weights.eq(weights),
-                    sums.reciprocal.eq(reciprocal),
+                    sums.supports.eq(supports),
+                    sums.near.eq(near[k]),
                     self.costs[k].eq(sums.o),
-                    self.excluded[k].eq(exclusion.lanes[k] | ~emits),
+                    self.excluded[k].eq(exclusion.lanes[k] | ~judged),
                 ]
 
         tags = Signal(self.tags.shape())
         m.d.comb += [
             tags.emits.eq(slot.emits),
-            tags.full.eq(slot.x >= plan_.right + config.disparities - 1),
+            tags.border.eq(border),
+            tags.full.eq(slot.x >= plan_.right + config.reach_left + config.disparities - 1),
             *(tags[name].eq(slot[name]) for name in MARKERS),
         ]
         m.d.comb += [
             self.valid.eq(valid[cost_time]),
             self.first.eq(first[cost_time]),
             self.last.eq(last[cost_time]),
-            self.step.eq(at(slots.step, cost_time, "step")),
+            self.step.eq(step),
             Value.cast(self.tags).eq(at(Value.cast(tags), cost_time, "tags")),
             self.tags.colour.eq(at(centre, cost_time - column_time - 1, "centre")),
         ]
         return m
 
-    def _weights(self, m: Module, colour: Value, enters: Value, inside: Value) -> tuple[Value, Value]:
-        """The support of the pixel that is judged, when the newest of its column sums is there."""
-        for c in self._plan.comparisons:
+    def _border(self, m: Module, slots: Slots) -> Value:
+        """Whether the pixel that a slot judges lies in the border band, in the clocks of the slot."""
+        config, plan_, slot = self._config, self._plan, slots.slot
+        if config.whole_frame:
+            return Const(0, 1)
+        # Of the rows and columns that it sees, those farthest away: the slot's own pixel is ``below`` rows
+        # under it, and ``right`` columns beside.
+        low, high = slot.rows[plan_.below - config.reach_rows], slot.rows[plan_.below + config.reach_rows]
+        m.submodules.seen = seen = Delay(1, plan_.right - config.reach_right)
+        m.d.comb += [seen.en.eq(slots.last), seen.i.eq(slot.inside)]
+        return ~(low & high & seen.o & (slot.x >= plan_.right + config.reach_left))
+
+    def _weights(self, m: Module, colour: Value, enters: Value, inside: Value, supports: data.View) -> None:
+        """The supports of the pixel that is judged, when the newest of its column sums is there."""
+        for k, c in enumerate(self._plan.comparisons):
             if not c.taps:
                 continue
             like = c.like << (self._config.pixel.bits - LIKE_BITS)
-            m.submodules.weights = weights = SupportWeights(
+            m.submodules[f"weights_{k}"] = weights = SupportWeights(
                 self._colour_bits, self._channels, c.taps, c.spacing, like
             )
-            m.submodules.wait = wait = Delay(self._colour_bits + 1, self._plan.right - c.reach)
+            m.submodules[f"wait_{k}"] = wait = Delay(self._colour_bits + 1, self._plan.right - c.reach)
             m.d.comb += [
                 wait.en.eq(enters),
                 wait.i.eq(colour | (inside << self._colour_bits)),
                 weights.enters.eq(enters),
                 weights.colour.eq(wait.o[: self._colour_bits]),
                 weights.inside.eq(wait.o[self._colour_bits]),
+                supports[str(k)].weights.eq(weights.weights),
+                supports[str(k)].reciprocal.eq(weights.reciprocal),
             ]
-            return weights.weights, weights.reciprocal
-        sums = self._sums[0]
-        return Signal.like(sums.weights), Signal.like(sums.reciprocal)
 
     def _centre(self, m: Module, colour: Value, enters: Value) -> Value:
         """The colour of the pixel that is judged, a clock after its slot's columns, through all steps."""

@@ -4,11 +4,12 @@ from amaranth.hdl import Module, ResetSignal
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.costs.comparison import plan
+from softdepth.hdl.costs.comparison import by_windows, plan
 from softdepth.hdl.front.descriptors import Descriptors
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.front.overlap import Overlap
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
@@ -18,15 +19,16 @@ class Front(wiring.Component):
 
     ::
 
-        i > frame guard > queue > (frame ends > descriptors) > o
+        i > frame guard > queue > (frame ends > overlap > descriptors) > o
 
     Windows of pixels are compared as they are; criteria that need descriptors get them, with the frame's
-    edges repeated. During reset no pixel is taken: ``i.ready`` is low.
+    edges repeated, and those of the views' overlap where candidates do not begin at 0. During reset no
+    pixel is taken: ``i.ready`` is low.
 
     Members
     -------
     i : stream of `pair_layout(config.pixel)`.
-    o : stream of `layout`: `item_layout` of whole frames, or the raster of `Descriptors`.
+    o : stream of `layout`: `item_layout` of windows of pixels, or the raster of `Descriptors`.
     hold, skip, clear, forget, faults, status : as of `FrameGuard`.
     """
 
@@ -37,7 +39,7 @@ class Front(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self._descriptors = self._wanted() if config.whole_frame else None
+        self._descriptors = None if by_windows(config) else self._wanted()
         self.layout: data.StructLayout = (
             self._descriptors.layout if self._descriptors else item_layout(config)
         )
@@ -71,7 +73,12 @@ class Front(wiring.Component):
         m.submodules.ends = ends = FrameEnds(config)
         m.submodules.descriptors = self._descriptors
         wiring.connect(m, queue.o, ends.i)
-        wiring.connect(m, ends.o, self._descriptors.i)
+        pairs = ends.o
+        if config.min_disparity:
+            m.submodules.overlap = overlap = Overlap(config)
+            wiring.connect(m, pairs, overlap.i)
+            pairs = overlap.o
+        wiring.connect(m, pairs, self._descriptors.i)
         wiring.connect(m, self._descriptors.o, wiring.flipped(self.o))
         return m
 

@@ -18,7 +18,7 @@ def slot_layout(payload: ShapeLike, columns: int, rows: int) -> data.StructLayou
     ``top`` : the row is the frame's first.
     ``emits``, and the markers : the slot completes the support of a pixel, ``columns`` to the left and
     ``rows`` up, and its markers.
-    ``starts`` : that pixel is its line's first.
+    ``starts`` : that pixel is its line's first that is judged.
     """
     return data.StructLayout(
         {
@@ -48,6 +48,7 @@ class Slots(wiring.Component):
     steps : clocks of a slot.
     right, below : columns and rows that supports reach to the right of a pixel and below it.
     history : rows above a slot's of which it is told whether they lie in the frame.
+    first : the column of a line's first pixel that is judged.
 
     Members
     -------
@@ -70,7 +71,9 @@ class Slots(wiring.Component):
         below: int,
         history: int,
         drain: int,
+        first: int = 0,
     ) -> None:
+        self._first = first
         self._steps, self._right, self._below = steps, right, below
         self._history, self._drain, self._max_width = history, drain, max_width
         self.layout = slot_layout(payload, max_width + right, history + 1)
@@ -148,7 +151,7 @@ class Slots(wiring.Component):
                 slot.rows.eq(rows_now),
                 slot.top.eq(starts | top),
                 slot.emits.eq(emits),
-                slot.starts.eq(emits & (x == self._right)),
+                slot.starts.eq(emits & (x == self._right + self._first)),
                 slot.sof.eq(emits & (fresh | starts)),
                 slot.eol.eq(emits & over),
                 slot.eof.eq(emits & over & final),

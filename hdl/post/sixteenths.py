@@ -4,6 +4,7 @@ from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value, unsigned
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.divide import divided
 from softdepth.hdl.post.stage import delayed
 
 FRACTION_BITS = 4
@@ -52,31 +53,18 @@ class Sixteenths(wiring.Component):
         m.d.sync += [rise.eq(larger - self.cost), skew.eq(self.below - self.above)]
         usable: Value = delayed(m, self.usable, 1, "usable")
         numerator = Signal(bits + QUOTIENT_BITS + 1, reset_less=True)
-        divisor: Value = Signal(bits + 1, reset_less=True)
+        divisor = Signal(bits + 1, reset_less=True)
         good = Signal(reset_less=True)
         m.d.sync += [
             numerator.eq((skew << FRACTION_BITS) + rise + (rise << FRACTION_BITS)),
             divisor.eq(rise << 1),
             good.eq(usable & rise.any()),
         ]
-        rest: Value = numerator
-        found: list[Value] = []
-        for bit in reversed(range(QUOTIENT_BITS)):
-            difference = rest - (divisor << bit)
-            fits = ~difference[-1]
-            left = Signal(len(rest), name=f"rest_{bit}", reset_less=True)
-            held = Signal(bits + 1, name=f"divisor_{bit}", reset_less=True)
-            quotient = Signal(len(found) + 1, name=f"quotient_{bit}", reset_less=True)
-            m.d.sync += [
-                left.eq(Mux(fits, difference, rest)),
-                held.eq(divisor),
-                quotient.eq(Cat(fits, *found)),
-            ]
-            rest, divisor, found = left, held, list(quotient)
+        quotient = divided(m, numerator, divisor, QUOTIENT_BITS)
         winner = delayed(m, self.winner, self.latency - 1, "winner")
         late = delayed(m, good, QUOTIENT_BITS, "good")
         whole = Cat(Const(0, FRACTION_BITS), winner)
         moved = Signal.like(self.o, reset_less=True)
-        m.d.sync += moved.eq(Mux(late, whole + Cat(*found) - (1 << (FRACTION_BITS - 1)), whole))
+        m.d.sync += moved.eq(Mux(late, whole + quotient - (1 << (FRACTION_BITS - 1)), whole))
         m.d.comb += self.o.eq(moved)
         return m

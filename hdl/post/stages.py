@@ -1,6 +1,7 @@
 """The stages behind the winners, in their order."""
 
 from softdepth.hdl.costs.comparison import LIKE_BITS
+from softdepth.hdl.front.overlap import from_zero
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
@@ -14,6 +15,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
 
     The left-right check, fractions and confidence are among the winners, which know the costs.
     """
+    config = from_zero(config)
     post = config.post
     size = (config.result_bits, config.pixel.size)
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
@@ -30,6 +32,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
 
 def median_of(config: Config) -> Median:
     """The stage of the median."""
+    config = from_zero(config)
     reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
     holes = not config.post.fill
     return Median(config.result_bits, config.pixel.size, config.max_width, **reach, holes=holes)
@@ -37,6 +40,7 @@ def median_of(config: Config) -> Median:
 
 def masked_medians_of(config: Config) -> MaskedMedians:
     """The stage of both masked medians."""
+    config = from_zero(config)
     post, pixel = config.post, config.pixel
     return MaskedMedians(
         config.result_bits,

@@ -1,12 +1,13 @@
 """What the costs beside a winner are, and the best of those that are not beside it."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
+from amaranth.hdl import Cat, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
 from softdepth.hdl.post.stage import delayed
-from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.hdl.winners.least_fraction import LeastFraction
+from softdepth.hdl.winners.shapes import is_fraction
 
 JOINED = 4
 """Lanes that are joined between two registers, where one of them at most is not 0."""
@@ -16,11 +17,11 @@ class Neighbours(wiring.Component):
     """Looks at all costs of a pixel again when its winner is known.
 
     One step a clock. A lane costs an equality for each of three candidates, a mask, and a node of the
-    minimum.
+    minimum, which is `FractionMin` where costs are fractions.
 
     Parameters
     ----------
-    maximum : of a cost.
+    cost : of a candidate, ``num / den``.
 
     Members
     -------
@@ -36,17 +37,19 @@ class Neighbours(wiring.Component):
 
     costs_late = 2
 
-    def __init__(self, lanes: int, steps: int, maximum: int) -> None:
-        self._lanes, self._steps = lanes, steps
-        self._bits = cost_bits(maximum)
+    def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
+        self._lanes, self._steps, self._cost = lanes, steps, cost
         self._tree = (lanes - 1).bit_length()
         self._joins = 0
         count = -(-lanes // 2)
         while count > 1:
             count = -(-count // JOINED)
             self._joins += 1
-        self.latency = self.costs_late + 1 + max(self._tree, self._joins) + 1
-        cost = unsigned(self._bits)
+        if is_fraction(cost):
+            self._least = LeastFraction(cost, lanes, steps)
+            self.latency = self.costs_late + max(self._least.latency, 1 + self._joins + 1)
+        else:
+            self.latency = self.costs_late + 1 + max(self._tree, self._joins) + 1
         super().__init__(
             {
                 "valid": In(1),
@@ -67,8 +70,7 @@ class Neighbours(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        lanes, steps, bits = self._lanes, self._steps, self._bits
-        none = (1 << bits) - 1
+        lanes, steps, bits = self._lanes, self._steps, self._cost.size
         # Lane k's candidate is `k * steps + steps - 1 - step`: what is left of the winner without the step.
         left = Signal(range(-steps, lanes * steps), reset_less=True)
         m.d.sync += left.eq(self.winner + self.step - (steps - 1))
@@ -80,7 +82,7 @@ class Neighbours(wiring.Component):
         ready = self.costs_late + 1
         first = travelling(m, self.first, self.latency, "first")
         valid = travelling(m, self.valid, self.latency, "valid")
-        joined = ready + max(self._tree, self._joins)
+        joined = self.latency - 1
 
         # A step's cost below the winner, or above it: at most one lane has it.
         for name in ("below", "above"):
@@ -89,7 +91,8 @@ class Neighbours(wiring.Component):
             for k in range(0, lanes, 2):
                 part = Signal(bits + 1, name=f"{name}_{k}", reset_less=True)
                 offers = [
-                    Cat(self.costs[lane], ~self.excluded[lane]) & chosen[name][lane].replicate(bits + 1)
+                    Cat(Value.cast(self.costs[lane]), ~self.excluded[lane])
+                    & chosen[name][lane].replicate(bits + 1)
                     for lane in range(k, min(k + 2, lanes))
                 ]
                 m.d.sync += part.eq(offers[0] | offers[-1])
@@ -108,18 +111,41 @@ class Neighbours(wiring.Component):
             held = Signal(bits + 1, name=f"held_{name}", reset_less=True)
             with m.If(valid[joined]):
                 m.d.sync += held.eq(Mux(first[joined], 0, held) | one)
-            m.d.comb += [getattr(self, name).eq(held[:bits]), getattr(self, f"has_{name}").eq(held[bits])]
+            m.d.comb += [
+                Value.cast(getattr(self, name)).eq(held[:bits]),
+                getattr(self, f"has_{name}").eq(held[bits]),
+            ]
 
-        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table
-        # of the choice, and not one of every operand.
-        pipeline = Pipeline(m, levels=1)
         nears = [
             self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]
             for k in range(lanes)
         ]
+        if is_fraction(self._cost):
+            m.submodules.least = least = self._least
+            last = travelling(m, self.last, self.costs_late, "last")[-1]
+            m.d.comb += [
+                least.valid.eq(valid[self.costs_late]),
+                least.last.eq(last),
+                least.costs.eq(self.costs),
+                least.excluded.eq(Cat(*nears)),
+            ]
+            late = self.latency - self.costs_late - least.latency
+            found = delayed(m, Cat(Value.cast(least.o), least.found), late, "least")
+            m.d.comb += [Value.cast(self.runner_up).eq(found[:bits]), self.has_runner_up.eq(found[bits])]
+        else:
+            self._smallest(m, nears, joined, valid[joined], first[joined])
+        return m
+
+    def _smallest(self, m: Module, nears: list[Value], joined: int, valid: Value, first: Value) -> None:
+        """The smallest number of those that are not near, from those of `joined` clocks after their step."""
+        lanes, bits = self._lanes, self._cost.size
+        none = (1 << bits) - 1
+        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table
+        # of the choice, and not one of every operand.
+        pipeline = Pipeline(m, levels=1)
         far: list[Word] = []
         for k in range(0, lanes, 2):
-            a, b = self.costs[k], self.costs[min(k + 1, lanes - 1)]
+            a, b = self.costs[k].num, self.costs[min(k + 1, lanes - 1)].num
             near, other = nears[k], nears[min(k + 1, lanes - 1)]
             takes_b = Signal(name=f"takes_{k}")
             neither = Signal(name=f"neither_{k}")
@@ -136,7 +162,6 @@ class Neighbours(wiring.Component):
 
         smallest = pipeline.at(pipeline.tree(less, far), joined - self.costs_late).value
         runner_up = Signal(bits, reset_less=True)
-        with m.If(valid[joined] & (first[joined] | (smallest - runner_up)[-1])):
+        with m.If(valid & (first | (smallest - runner_up)[-1])):
             m.d.sync += runner_up.eq(smallest)
-        m.d.comb += [self.runner_up.eq(runner_up), self.has_runner_up.eq(runner_up != none)]
-        return m
+        m.d.comb += [self.runner_up.num.eq(runner_up), self.has_runner_up.eq(runner_up != none)]

@@ -1,10 +1,10 @@
 """The right view's winner, found along the diagonal of the left view's costs."""
 
-from amaranth.hdl import Const, Module, Mux, Signal, Value, unsigned
+from amaranth.hdl import Const, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.hdl.winners.shapes import is_fraction
 
 
 class RightWinner(wiring.Component):
@@ -14,6 +14,12 @@ class RightWinner(wiring.Component):
     candidate with each left pixel, from 0 to the last, and leaves there. An excluded candidate changes
     nothing: so a line's last right pixels leave during the slots that follow the line, whatever these are.
     The state of a lane is its segment's, far end first; the near end takes over from the lane below.
+    Fractions are compared as `FractionMin` does, but within a clock: with one step a candidate's best is
+    wanted in the clock that follows.
+
+    Parameters
+    ----------
+    cost : of a candidate, ``num / den``.
 
     Members
     -------
@@ -27,16 +33,15 @@ class RightWinner(wiring.Component):
 
     latency = 1
 
-    def __init__(self, lanes: int, steps: int, maximum: int) -> None:
-        self._lanes, self._steps = lanes, steps
-        self._bits = cost_bits(maximum)
+    def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
+        self._lanes, self._steps, self._cost = lanes, steps, cost
         super().__init__(
             {
                 "valid": In(1),
                 "first": In(1),
                 "last": In(1),
                 "step": In(range(steps)),
-                "costs": In(data.ArrayLayout(unsigned(self._bits), lanes)),
+                "costs": In(data.ArrayLayout(cost, lanes)),
                 "excluded": In(lanes),
                 "winner": Out(range(lanes * steps)),
             }
@@ -45,9 +50,11 @@ class RightWinner(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         steps = self._steps
-        best = data.StructLayout({"cost": self._bits, "index": range(self._lanes * steps)})
-        # Nothing was found before the first candidate: any cost is less.
-        entering: Value = Const((1 << self._bits) - 1, best.size)
+        best = data.StructLayout({"cost": self._cost, "index": range(self._lanes * steps)})
+        # Nothing was found before the first candidate: any cost is less, but an infinite one, as which it
+        # counts. That is 1 / 0; a plain number is larger than any.
+        none = 1 if is_fraction(self._cost) else (1 << self._cost.size) - 1
+        entering: Value = Const(none, best.size)
         for lane in range(self._lanes):
             ring = [Signal(best, name=f"best_{lane}_{k}", reset_less=True) for k in range(steps)]
             far = Signal(best, name=f"far_{lane}", reset_less=True)  # what the far end was a slot before
@@ -61,9 +68,9 @@ class RightWinner(wiring.Component):
                     m.d.sync += far.eq(ring[-1])
                 entering = far
             now = Signal(best, name=f"now_{lane}")
-            better = ~self.excluded[lane] & (self.costs[lane] - before.cost)[-1]
+            better = ~self.excluded[lane] & _less(self.costs[lane], before.cost)
             m.d.comb += [
-                now.cost.eq(Mux(better, self.costs[lane], before.cost)),
+                Value.cast(now.cost).eq(Mux(better, Value.cast(self.costs[lane]), Value.cast(before.cost))),
                 now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),
             ]
             with m.If(self.valid):
@@ -73,3 +80,10 @@ class RightWinner(wiring.Component):
             m.d.sync += winner.eq(now.index)
         m.d.comb += self.winner.eq(winner)
         return m
+
+
+def _less(a: data.View, b: data.View) -> Value:
+    """Whether a cost is less than another, as the sign of a difference."""
+    if not is_fraction(a.shape()):
+        return (a.num - b.num)[-1]
+    return (a.num * b.den - b.num * a.den)[-1]

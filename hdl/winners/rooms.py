@@ -3,6 +3,7 @@
 from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.cost import fraction_layout
 from softdepth.hdl.costs.whole_costs import WholeCosts
+from softdepth.hdl.front.overlap import from_zero
 from softdepth.hdl.winners.band_winners import BandWinners
 from softdepth.hdl.winners.whole_winners import WholeWinners
 from softdepth.spec.config import Config
@@ -11,5 +12,5 @@ from softdepth.spec.config import Config
 def winners_of(config: Config, costs: BandCosts | WholeCosts) -> BandWinners | WholeWinners:
     """A component that has `winner_ports` for what `costs` says, and the stream ``o`` of results."""
     if isinstance(costs, WholeCosts):
-        return WholeWinners(config, costs.maximum, config.pixel.size, costs.latency)
+        return WholeWinners(from_zero(config), costs.layout, config.pixel.size, costs.latency)
     return BandWinners(config, fraction_layout(config), ahead=costs.latency, tags_ahead=costs.tags_ahead)

@@ -1,6 +1,19 @@
-"""How wide costs are behind the lanes."""
+"""How wide costs are behind the lanes: every one is ``num / den``."""
+
+from amaranth.hdl import Shape, unsigned
+from amaranth.lib import data
 
 
 def cost_bits(maximum: int) -> int:
-    """Bits of a cost and of one that is larger than any, all ones: it stands for none."""
+    """Bits of a sum and of one that is larger than any, all ones: it stands for none."""
     return (maximum + 1).bit_length()
+
+
+def sum_layout(maximum: int) -> data.StructLayout:
+    """Of a sum up to `maximum`: a plain number has no ``den``, which then is 1."""
+    return data.StructLayout({"num": unsigned(cost_bits(maximum)), "den": unsigned(0)})
+
+
+def is_fraction(cost: data.StructLayout) -> bool:
+    """Whether a cost of this layout has a denominator."""
+    return Shape.cast(cost.members["den"]).width > 0

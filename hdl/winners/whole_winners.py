@@ -1,6 +1,6 @@
 """Costs in, results out: winners of both views, what lies beside the left one, and whether both agree."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
+from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -18,8 +18,9 @@ from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.signatures import TOLERANCE_BITS
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
+from softdepth.hdl.winners.number import Number, number_latency
 from softdepth.hdl.winners.right_winner import RightWinner
-from softdepth.hdl.winners.shapes import cost_bits
+from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
 
@@ -27,20 +28,24 @@ from softdepth.spec.validity import Validity
 class WholeWinners(wiring.Component):
     """Finds each pixel's result among the costs that come step by step; back-pressure reaches `credit`.
 
+    Fractions are compared as they are, and are made numbers where fractions of a pixel and margins need them.
+
+    Parameters
+    ----------
+    cost : a candidate's, ``num / den``.
+    ahead : clocks from a slot's beginning to its first costs.
+
     Members
     -------
-    The ports of `winner_ports` with the tags of `WholeCosts`; a slot begins ``ahead`` clocks before its first
-    costs. And
+    The ports of `winner_ports` with the tags of `WholeCosts`. And
     tolerance : of the check, `Post.tolerance` where it is not driven. It may change between frames.
     o : a stream of results, `post_layout`.
     """
 
-    def __init__(self, config: Config, maximum: int, colour_bits: int, ahead: int) -> None:
-        self._config, self._maximum, self._ahead = config, maximum, ahead
-        self._tags = tags_layout(colour_bits)
-        self._bits = cost_bits(maximum)
+    def __init__(self, config: Config, cost: data.StructLayout, colour_bits: int, ahead: int) -> None:
+        self._config, self._cost, self._ahead = config, cost, ahead
+        self._tags = tags_layout(config)
         self.layout = post_layout(config.result_bits, colour_bits)
-        cost = unsigned(self._bits)
         super().__init__(
             {
                 **winner_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=self._tags),
@@ -53,16 +58,19 @@ class WholeWinners(wiring.Component):
         m = Module()
         config, post = self._config, self._config.post
         lanes, steps = config.lanes, config.steps
-        cost = unsigned(self._bits)
+        cost = self._cost
+        num, den = cost.members["num"], cost.members["den"]
 
         # The left winner, `found_time` clocks after the last step.
-        m.submodules.tree = tree = ArgminTree(cost, unsigned(0), lanes)
-        best = candidate_layout(cost, unsigned(0), config.disparities)
+        m.submodules.tree = tree = ArgminTree(num, den, lanes)
+        best = candidate_layout(num, den, config.disparities)
         m.submodules.sequence = sequence = ArgminSequence(best, steps)
         found_time = tree.latency + sequence.latency
         again = found_time + steps  # from a step to when it is looked at again
-        m.submodules.neighbours = beside = Neighbours(lanes, steps, self._maximum)
-        late = again + beside.latency
+        m.submodules.neighbours = beside = Neighbours(lanes, steps, cost)
+        # Clocks that it takes to make numbers of costs.
+        numbers = number_latency(*config.number_range) if is_fraction(cost) else 0
+        late = again + beside.latency + numbers
         judged = late + (Sixteenths.latency if post.fraction_bits else Confidence.latency)
         valid = travelling(m, self.valid, judged, "valid")
         first = travelling(m, self.first, again, "first")
@@ -70,20 +78,26 @@ class WholeWinners(wiring.Component):
         tree_step = delayed(m, self.step, tree.latency, "tree_step")
         for k in range(lanes):
             m.d.comb += [
-                tree.i[k].num.eq(self.costs[k]),
+                tree.i[k].num.eq(self.costs[k].num),
+                tree.i[k].den.eq(self.costs[k].den),
                 tree.i[k].excluded.eq(self.excluded[k]),
             ]
         m.d.comb += [
             sequence.valid.eq(valid[tree.latency]),
             sequence.last.eq(last[tree.latency]),
             sequence.i.num.eq(tree.o.num),
+            sequence.i.den.eq(tree.o.den),
             sequence.i.index.eq(tree.o.index * steps + (steps - 1 - tree_step)),
             sequence.i.excluded.eq(tree.o.excluded),
         ]
         winner = Signal(range(config.disparities), reset_less=True)
         smallest = Signal(cost, reset_less=True)
         with m.If(last[found_time]):
-            m.d.sync += [winner.eq(sequence.o.index), smallest.eq(sequence.o.num)]
+            m.d.sync += [
+                winner.eq(sequence.o.index),
+                smallest.num.eq(sequence.o.num),
+                smallest.den.eq(sequence.o.den),
+            ]
 
         # All costs again, beside the winner.
         everything = Cat(Value.cast(self.costs), self.excluded)
@@ -98,25 +112,39 @@ class WholeWinners(wiring.Component):
             beside.step.eq(self._late(m, self.step, again, "step")),
             beside.winner.eq(winner),
         ]
-        winner_late = delayed(m, winner, beside.latency, "winner")
-        smallest_late = delayed(m, smallest, beside.latency, "smallest")
+        winner_late = delayed(m, winner, beside.latency + numbers, "winner")
+        smallest_late = delayed(m, Value.cast(smallest), beside.latency, "smallest")
+
+        def number(of: Value, name: str) -> Value:
+            """A cost as a number, at `late`."""
+            if not numbers:
+                return of
+            m.submodules[f"number_{name}"] = block = Number(cost, *config.number_range)
+            m.d.comb += Value.cast(block.i).eq(of)
+            return block.o
+
+        smallest_number = number(smallest_late, "smallest")
+        has_below, has_above, has_runner_up = (
+            delayed(m, getattr(beside, f"has_{name}"), numbers, f"has_{name}")
+            for name in ("below", "above", "runner_up")
+        )
 
         value: Value = delayed(m, winner_late, judged - late, "whole")
         if post.fraction_bits:
-            m.submodules.sixteenths = sixteenths = Sixteenths(config.disparities, self._bits)
+            m.submodules.sixteenths = sixteenths = Sixteenths(config.disparities, len(smallest_number))
             m.d.comb += [
                 sixteenths.winner.eq(winner_late),
-                sixteenths.cost.eq(smallest_late),
-                sixteenths.below.eq(beside.below),
-                sixteenths.above.eq(beside.above),
-                sixteenths.usable.eq(beside.has_below & beside.has_above),
+                sixteenths.cost.eq(smallest_number),
+                sixteenths.below.eq(number(Value.cast(beside.below), "below")),
+                sixteenths.above.eq(number(Value.cast(beside.above), "above")),
+                sixteenths.usable.eq(has_below & has_above),
             ]
             value = sixteenths.o
-        m.submodules.confidence = confidence = Confidence(self._bits, config.confidence_shift)
+        m.submodules.confidence = confidence = Confidence(len(smallest_number), config.confidence_shift)
         m.d.comb += [
-            confidence.cost.eq(smallest_late),
-            confidence.runner_up.eq(beside.runner_up),
-            confidence.has_runner_up.eq(beside.has_runner_up),
+            confidence.cost.eq(smallest_number),
+            confidence.runner_up.eq(number(Value.cast(beside.runner_up), "runner_up")),
+            confidence.has_runner_up.eq(has_runner_up),
         ]
         sure = delayed(m, confidence.o, judged - late - Confidence.latency, "sure")
         tags = data.View(self._tags, self._late(m, Value.cast(self.tags), judged, "tags"))
@@ -134,7 +162,7 @@ class WholeWinners(wiring.Component):
         result: data.View = here
         latency = self._ahead + judged
         if post.check:
-            m.submodules.right = right = RightWinner(lanes, steps, self._maximum)
+            m.submodules.right = right = RightWinner(lanes, steps, cost)
             m.submodules.check = check = LeftRight(config.disparities, found, post.tolerance)
             m.d.comb += [
                 check.tolerance.eq(self.tolerance),
@@ -154,15 +182,17 @@ class WholeWinners(wiring.Component):
             latency += LeftRight.latency
 
         m.submodules.queue = queue = ResultQueue(self.layout, -(-latency // steps) + 2)
-        kept_result: Value = agrees if agrees is not None else ~Signal(name="never")
+        border = Value.cast(result.tags.border).any()
+        kept_result: Value = (agrees if agrees is not None else Const(1, 1)) & ~border
         code = Mux(result.tags.full, Validity.FULL, Validity.PARTIAL)
+        lost = Mux(border, Validity.BORDER, Validity.INCONSISTENT)
         m.d.comb += [
             self.credit.eq(queue.credit),
             queue.promised.eq(self.begins),
             queue.put.eq(emits),
             queue.dropped.eq(done & ~emits),
             queue.result.value.eq(Mux(kept_result, result.value, 0)),
-            queue.result.code.eq(Mux(kept_result, code, Validity.INCONSISTENT)),
+            queue.result.code.eq(Mux(kept_result, code, lost)),
             queue.result.confidence.eq(Mux(kept_result, result.confidence, 0)),
             queue.result.colour.eq(result.tags.colour),
             *(queue.result[name].eq(result.tags[name]) for name in MARKERS),

@@ -44,11 +44,12 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     from softdepth.hdl.asked import asked
     from softdepth.hdl.built import missing
     from softdepth.hdl.core import StereoCore
+    from softdepth.hdl.costs.comparison import by_windows
     from softdepth.hdl.signatures import pair_layout, result_layout
 
     if gaps := missing(config):
         return _facts_of_any(config) | {"gateware": f"none of {', '.join(gaps)}: models alone"}
-    if config.whole_frame:
+    if not by_windows(config):
         return _facts_of_whole(config, clock, width, height)
     with asked():
         core = StereoCore(config)
@@ -102,7 +103,7 @@ def _facts_of_any(config: Config) -> dict[str, str]:
 
 
 def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
-    """The same of a core without a border band, whose stages hold their input back beyond a frame's edges."""
+    """The same of a core with descriptors, whose stages hold their input back beyond a frame's edges."""
     from softdepth.hdl.signatures import pair_layout, result_layout
     from softdepth.hdl.whole_latency import WholeLatency
 

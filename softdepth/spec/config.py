@@ -199,8 +199,8 @@ class Config(Settings):
 
     @property
     def min_width(self) -> int:
-        """The narrowest legal frame: one full support, and no less than `NARROWEST`."""
-        return max(self.reach_left + 1 + self.reach_right, NARROWEST)
+        """The narrowest legal frame: one full support, and the views overlap in no less than `NARROWEST`."""
+        return max(self.reach_left + 1 + self.reach_right, NARROWEST + abs(self.min_disparity))
 
     @property
     def min_height(self) -> int:

@@ -250,7 +250,7 @@ class Gradient(AnyCriterion):
     @property
     def maximum(self) -> int:
         """The largest value."""
-        return self.rows * self.columns * min(self.truncation, 2 * self.cap)
+        return self.rows * self.columns * max(min(self.truncation, 2 * self.cap), self.neutral)
 
     @property
     def below(self) -> int:

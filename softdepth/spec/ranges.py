@@ -39,6 +39,8 @@ def multipliers(config: "Config") -> int:
         return -(-bits // MULTIPLIER_BITS)
 
     comparisons = config.lanes - 1 + (config.steps - 1).bit_length()
+    comparisons *= 1 + config.post.confidence  # the runner-up's are as many
+    comparisons += config.lanes * config.post.check
     (num_low, num_high), (_, den_high) = costs(config)
     sign = num_low < 0
     num = max(num_high.bit_length(), (~num_low).bit_length()) + sign

@@ -12,6 +12,7 @@ import numpy as np
 
 from softdepth.golden import fixed_model
 from softdepth.golden.front.views import to_core_view
+from softdepth.hdl.costs.comparison import by_windows
 from softdepth.spec.config import Config
 from softdepth.spec.protocol import (
     COUNTERS,
@@ -150,7 +151,7 @@ class FakeBoard:
     def _line(self) -> bytes:
         """The next line of results, if the pixels of its support are there."""
         width, height = self.size
-        below = height if self.config.whole_frame else self.config.reach_rows
+        below = self.config.reach_rows if by_windows(self.config) else height
         behind = 0 if len(self.lines) == height else below
         if self.given + behind >= len(self.lines) or self.misdeeds.never_ready:
             return b""

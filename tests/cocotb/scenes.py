@@ -121,46 +121,112 @@ def random_config(seed: int) -> Config:
     return config.override([f"stored_rows={stored}"])
 
 
+def of_pixels(pair: Pair, config: Config, seed: int) -> Pair:
+    """A pair of 8-bit colours in the pixels of `config`; further bits are noise."""
+    rng = np.random.default_rng(seed)
+    left, right = pair if config.pixel.channels == 3 else (pair[0][..., 1].copy(), pair[1][..., 1].copy())
+    more = config.pixel.bits - 8
+    if not more:
+        return left, right
+    noisy = [(v.astype(np.uint16) << more) + rng.integers(0, 1 << more, v.shape) for v in (left, right)]
+    return noisy[0].astype(np.uint16), noisy[1].astype(np.uint16)
+
+
+def whole_frames_for(config: Config, seed: int) -> list[Pair]:
+    """Frames of every awkward size for what is summed down columns: of one row, the narrowest, the widest."""
+    low, high = config.min_width, config.max_width
+    pairs = [
+        textured(14, min(low + 29, high), 1),
+        noise(6, min(low + 16, high), 2),
+        textured(3, low, 3),
+        textured(1, low + 1, 4),
+        textured(9, min(low + 8, high), 5),
+        flat(3, min(low + 5, high), 77),
+        noise(12, high, seed),
+        textured(20, min(low + 22 + seed, high), seed),
+    ]
+    return [of_pixels(pair, config, seed) for pair in pairs]
+
+
 def random_whole_config(seed: int) -> Config:
-    """A configuration without a border band, drawn at random from everything that has gateware."""
+    """A configuration summed down columns, drawn at random from everything that there is.
+
+    Costs, criteria, pixels and first candidates take turns, so that a few seeds in a row have all of them.
+    """
     rng = np.random.default_rng(seed)
 
     def pick(options: list) -> Any:
         return options[int(rng.integers(len(options)))]
 
-    disparities = int(pick([2, 3, 5, 6, 8, 12]))
-    census = {
-        "kind": "census",
-        "rows": pick([1, 3, 5, 9]),
-        "taps": pick([1, 3, 5, 7]),
-        "spacing": pick([1, 2, 4]),
-        "like": pick([20, 32, 100, 256]),
-        "neutral": int(rng.integers(25)),
-    }
-    gradients = []
-    for _ in range(2):
+    def label_bits() -> int:
+        return int(rng.integers(7, 13))
+
+    def census() -> dict[str, Any]:
+        return {
+            "kind": "census",
+            "rows": pick([1, 3, 5, 9]),
+            "taps": pick([1, 3, 5, 7]),
+            "spacing": pick([1, 2, 4]),
+            "like": pick([20, 32, 100, 256]),
+            "neutral": int(rng.integers(25)),
+            "label_bits": label_bits(),
+        }
+
+    def gradient() -> dict[str, Any]:
         truncation = int(rng.integers(1, 70))
-        gradients.append(
-            {
-                "kind": "gradient",
-                "rows": pick([1, 3, 5, 9]),
-                "columns": pick([1, 3, 5, 9]),
-                "cap": pick([7, 31, 60]),
-                "truncation": truncation,
-                "neutral": int(rng.integers(truncation + 1)),
-            }
-        )
+        return {
+            "kind": "gradient",
+            "rows": pick([1, 3, 5, 9]),
+            "columns": pick([1, 3, 5, 9]),
+            "cap": pick([7, 31, 60]),
+            "truncation": truncation,
+            "neutral": int(rng.integers(truncation + 1)),
+            "label_bits": label_bits(),
+        }
+
+    def sad() -> dict[str, Any]:
+        return {
+            "window": pick([3, 5, 7]),
+            "dx": pick([0, 0, -2, 3]),
+            "source": pick(["colour", "gradient"]),
+            "label_bits": label_bits(),
+        }
+
+    disparities = int(pick([2, 3, 5, 6, 8, 12]))
+    fuzzy = seed % 2 == 1
+    kinds = [
+        [census, gradient, gradient],
+        [census, gradient, sad],
+        [sad, gradient],
+        [sad, sad, sad],
+        [census],
+        [census, census, gradient],
+    ][seed % 6]
+    criteria = [kind() for kind in (kinds if fuzzy or rng.random() < 0.7 else kinds[:1])]
     check = bool(rng.random() < 0.8)
     return Config.from_dict(
         {
             "name": f"random-whole-{seed}",
-            "cost": "sum",
+            "cost": "fuzzy" if fuzzy else "sum",
+            "operator": sorted(OPERATORS)[seed // 2 % len(OPERATORS)],
+            "firing": pick(["all", "cell"]),
+            "rules": pick(["printed", "corrected"]),
+            "membership_bits": int(rng.integers(3, 8)),
+            "max_multipliers": 1000,
             "disparities": disparities,
+            "min_disparity": (0, 0, 4, -3)[seed % 4],
             "lanes": pick([n for n in range(1, 5) if disparities % n == 0]),
             "max_width": int(rng.integers(64, 120)),
             "max_height": 100,
+            "pixel": ("rgb8", "gray8", "gray12", "rgb8", "gray10")[seed % 5],
             "reference": pick(["left", "right"]),
-            "criteria": pick([[census], [gradients[0]], [census, gradients[0]], [census, *gradients]]),
+            "criteria": criteria,
+            "compensation": {
+                "reading": pick(["off", "top", "literal"]) if fuzzy else "off",
+                "threshold": int(rng.integers(0, 300)),
+                "from_disparity": int(rng.integers(0, disparities + 1)),
+                "criterion": 1,
+            },
             "post": {
                 "check": check,
                 "tolerance": int(rng.integers(3)) if check else 0,

@@ -21,7 +21,7 @@ from softdepth.sim.stream import run_stream
 from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results, unpack_status
 from softdepth.spec.config import Config
 from tests.cocotb.conftest import Exact
-from tests.cocotb.scenes import flat, noise, random_whole_config, textured
+from tests.cocotb.scenes import noise, random_whole_config, textured, whole_frames_for
 from tests.cocotb.test_damage import CASES, no_start
 
 ROBUST = Config.preset("robust").override(["disparities=8", "lanes=4", "max_width=64", "max_height=64"])
@@ -31,7 +31,7 @@ PAIRS = [textured(14, 33, 1), noise(6, 20, 2), textured(3, 4, 3), textured(1, 5,
 @pytest.mark.parametrize("seed", range(6))
 def test_random_configuration(seed: int, exact: Exact) -> None:
     config = random_whole_config(seed)
-    pairs = [*PAIRS, flat(3, 9, 77), noise(12, config.max_width, seed), textured(20, 2 * 13 + seed, seed)]
+    pairs = whole_frames_for(config, seed)
     verilog = to_verilog(config)
     exact(config, pairs, verilog=verilog)
     exact(config, pairs, verilog=verilog, stalls=Stalls.random(0.2 + 0.1 * seed, seed), gap=100 * seed)

@@ -11,6 +11,7 @@ import pytest
 from softdepth.cli.info import facts
 from softdepth.export.core_file import export_core
 from softdepth.golden.fixed_model import disparity
+from softdepth.hdl.costs.comparison import by_windows
 from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
@@ -24,7 +25,7 @@ Pair = tuple[np.ndarray, np.ndarray]
 
 
 def pairs_for(config: Config) -> list[Pair]:
-    width, height = config.min_width + 5, config.min_height + 1 + 4 * config.whole_frame
+    width, height = config.min_width + 5, config.min_height + 1 + 4 * (not by_windows(config))
     pairs = [images(1, width, height), images(2, width, height, 3)]
     return [of_pixel(pair, config) for pair in pairs]
 

@@ -137,7 +137,10 @@ def test_a_kind_without_gateware_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
 def test_a_kind_without_a_band_has_a_model_only(monkeypatch: pytest.MonkeyPatch) -> None:
     spot = type(core().criteria[1])
     monkeypatch.setattr(spot, "whole_frame", True)
-    assert missing(core()) == ("criteria.1 of kind 'spot' beside one with a border band",)
+    assert not missing(core())
+    needs = "criteria.1 of kind 'spot' where others, or what is behind the winners, need sums down columns"
+    assert missing(core(post={"fill": True})) == (needs,)
+    monkeypatch.setattr(lane.CRITERIA, "_items", {"sad": SadCriteria})
     alone = {"cost": "sum", "criteria": [{"kind": "census"}, {"kind": "spot"}]}
     assert missing(core(**alone)) == ("criteria.1 of kind 'spot'",)
     told = facts(core(**alone), 100.0, 64, 48)

@@ -14,6 +14,16 @@ MULTIPLY_CLOCKS = 2
 """Clocks that `Pipeline.multiply` takes."""
 
 
+def reciprocals(taps: int) -> tuple[int, ...]:
+    """What sums of 1, 2, ... columns are multiplied by."""
+    return tuple(((2 << RECIPROCAL_BITS) // n + 1) // 2 for n in range(1, taps + 1))
+
+
+def support_layout(taps: int) -> data.StructLayout:
+    """A bit for each column that counts, leftmost first, and the reciprocal of their number."""
+    return data.StructLayout({"weights": taps, "reciprocal": range(max(reciprocals(taps)) + 1)})
+
+
 class SupportWeights(wiring.Component):
     """Once a pixel: the columns of the support whose colour is like the centre's, and one reciprocal.
 
@@ -38,7 +48,7 @@ class SupportWeights(wiring.Component):
     def __init__(self, colour_bits: int, channels: int, taps: int, spacing: int, like: int) -> None:
         self._channels, self._taps, self._spacing, self._like = channels, taps, spacing, like
         self.reach = taps // 2 * spacing
-        self.table = tuple(((2 << RECIPROCAL_BITS) // n + 1) // 2 for n in range(1, taps + 1))
+        self.table = reciprocals(taps)
         super().__init__(
             {
                 "enters": In(1),
@@ -109,7 +119,7 @@ class SupportMean(wiring.Component):
 
     def __init__(self, maximum: int, taps: int, spacing: int, steps: int) -> None:
         self._maximum, self._taps, self._gap = maximum, taps, spacing * steps
-        self.table = tuple(((2 << RECIPROCAL_BITS) // n + 1) // 2 for n in range(1, taps + 1))
+        self.table = reciprocals(taps)
         self.maximum = max(n * maximum * r >> SUPPORT_SHIFT for n, r in enumerate(self.table, start=1))
         self.latency = 1 + tree_latency(taps) + MULTIPLY_CLOCKS
         super().__init__(

@@ -1,6 +1,6 @@
 """How unlike two descriptors are: one pixel of one candidate."""
 
-from amaranth.hdl import Module, Mux, Shape, Signal, Value
+from amaranth.hdl import Const, Module, Mux, Shape, Signal, Value
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
@@ -59,8 +59,8 @@ class GradientDifference(wiring.Component):
     latency = 2
 
     def __init__(self, shape: Shape, largest: int, truncation: int, neutral: int) -> None:
-        self._truncation, self._neutral = truncation, neutral
-        self.maximum = min(truncation, largest)
+        self._truncation, self._neutral, self._largest = truncation, neutral, largest
+        self.maximum = max(min(truncation, largest), neutral)
         super().__init__(
             {
                 "a": In(shape),
@@ -79,8 +79,56 @@ class GradientDifference(wiring.Component):
         # The complement of a negative number is its magnitude less 1.
         folded = bits ^ top.replicate(len(bits))
         magnitude = folded + top
-        cut = Mux(magnitude > self._truncation, self._truncation, magnitude)
+        cut: Value = magnitude
+        if self._truncation < self._largest:
+            cut = Mux(magnitude > self._truncation, self._truncation, magnitude)
         held = Signal(range(self.maximum + 1), reset_less=True)
         m.d.sync += held.eq(Mux(self.inside, Mux(self.absent, self._neutral, cut), 0))
+        m.d.comb += self.o.eq(held)
+        return m
+
+
+class ColourDifference(wiring.Component):
+    """The sum of absolute differences over a pixel's channels; 0 outside the frame or without a partner.
+
+    One a clock.
+
+    Parameters
+    ----------
+    channels, bits : of a pixel.
+
+    Members
+    -------
+    a, b : pixels.
+    absent, inside, o : as in `Hamming`.
+    """
+
+    latency = 2
+
+    def __init__(self, channels: int, bits: int) -> None:
+        self._channels, self._bits = channels, bits
+        self.maximum = channels * ((1 << bits) - 1)
+        super().__init__(
+            {
+                "a": In(channels * bits),
+                "b": In(channels * bits),
+                "absent": In(1),
+                "inside": In(1),
+                "o": Out(range(self.maximum + 1)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        total: Value = Const(0, 1)
+        for k in range(self._channels):
+            a, b = (view[k * self._bits : (k + 1) * self._bits] for view in (self.a, self.b))
+            difference = Signal((a - b).shape(), name=f"difference_{k}", reset_less=True)
+            m.d.sync += difference.eq(a - b)
+            # As in `GradientDifference`: the 1 is the adder's carry.
+            folded = difference[:-1] ^ difference[-1].replicate(self._bits)
+            total = folded + difference[-1] if k == 0 else total + folded + difference[-1]
+        held = Signal(range(self.maximum + 1), reset_less=True)
+        m.d.sync += held.eq(Mux(self.inside & ~self.absent, total, 0))
         m.d.comb += self.o.eq(held)
         return m

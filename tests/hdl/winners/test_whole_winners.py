@@ -1,21 +1,54 @@
 """Right winners along the diagonal, neighbours and runner-up, sixteenths, confidence: against plain loops."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
+from amaranth.lib import data
 
 from softdepth.hdl.post.confidence import Confidence
 from softdepth.hdl.post.left_right import LeftRight
 from softdepth.hdl.post.sixteenths import Sixteenths
 from softdepth.hdl.winners.neighbours import Neighbours
+from softdepth.hdl.winners.number import Number
 from softdepth.hdl.winners.right_winner import RightWinner
+from softdepth.hdl.winners.shapes import sum_layout
+from softdepth.spec.config import QUOTIENT_BITS, Config
 from tests.support.simulation import observe, piped
 
 GEOMETRIES = [(4, 2), (3, 1), (2, 3), (1, 4)]
 
 
+KINDS = ("numbers", "fractions")
+FRACTION = data.StructLayout({"num": range(-8, 13), "den": range(5)})
+
+
+def drawn(kind: str, rng: np.random.Generator, shape: tuple[int, ...], most: int) -> np.ndarray:
+    """Costs as the gateware takes them, numerator and denominator; of fractions some are infinite."""
+    if kind == "numbers":
+        return np.stack((rng.integers(0, most, shape), np.zeros(shape, int)), axis=-1)
+    costs = np.stack((rng.integers(-8, 13, shape), rng.integers(0, 5, shape)), axis=-1)
+    costs[costs[..., 1] == 0] = 1, 0
+    return costs
+
+
+def value(cost: np.ndarray, kind: str) -> Fraction | float:
+    """What a cost is worth."""
+    num, den = map(int, cost)
+    if kind == "numbers":
+        return Fraction(num)
+    return Fraction(num, den) if den else float("inf")
+
+
 def of_step(volume: np.ndarray, lanes: int, steps: int, step: int) -> list[int]:
     """What each lane judges in a step, of a pixel's candidates."""
     return [int(volume[lane * steps + steps - 1 - step]) for lane in range(lanes)]
+
+
+def costs_of_step(costs: np.ndarray, lanes: int, steps: int, step: int) -> list[dict[str, int]]:
+    """The same of costs."""
+    num, den = (of_step(costs[:, part], lanes, steps, step) for part in (0, 1))
+    return [{"num": n, "den": d} for n, d in zip(num, den, strict=True)]
 
 
 def bits_of(flags: list[int]) -> int:
@@ -24,12 +57,13 @@ def bits_of(flags: list[int]) -> int:
 
 @pytest.mark.parametrize(("lanes", "steps"), GEOMETRIES)
 @pytest.mark.parametrize("width", [4, 19])
-def test_right_winner(lanes: int, steps: int, width: int) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_right_winner(lanes: int, steps: int, width: int, kind: str) -> None:
     rng = np.random.default_rng(lanes)
     count = lanes * steps
-    lines = rng.integers(0, 12, (4, width, count))
+    lines = drawn(kind, rng, (4, width, count), 12)
     clocks, slots = [], []
-    for line in [*lines, np.zeros((count, count), int)]:
+    for line in [*lines, np.zeros((count, count, 2), int)]:
         drained = len(line) == count and line.sum() == 0
         for x, costs in enumerate(line):
             slots.append(len(clocks))
@@ -41,27 +75,34 @@ def test_right_winner(lanes: int, steps: int, width: int) -> None:
                         "first": step == 0,
                         "last": step == steps - 1,
                         "step": step,
-                        "costs": of_step(costs, lanes, steps, step),
+                        "costs": costs_of_step(costs, lanes, steps, step),
                         "excluded": bits_of(of_step(excluded, lanes, steps, step)),
                     }
                 )
         clocks += [{"valid": 0, "first": 0, "last": 0}] * 2
-    found = observe(RightWinner(lanes, steps, 11), [*clocks, {}], "winner")
+    layout = FRACTION if kind == "fractions" else sum_layout(11)
+    found = observe(RightWinner(lanes, steps, layout), [*clocks, {}], "winner")
     for number, line in enumerate(lines):
         for right in range(width):
-            costs = [line[right + d, d] for d in range(count) if right + d < width]
+            costs = [value(line[right + d, d], kind) for d in range(count) if right + d < width]
             slot = number * width + right + count - 1
-            assert found[slots[slot] + 1] == int(np.argmin(costs)), (number, right)
+            assert found[slots[slot] + 1] == costs.index(min(costs)), (number, right)
 
 
 @pytest.mark.parametrize(("lanes", "steps"), GEOMETRIES)
-def test_neighbours(lanes: int, steps: int) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_neighbours(lanes: int, steps: int, kind: str) -> None:
     rng = np.random.default_rng(steps)
     count, pixels = lanes * steps, 40
-    dut = Neighbours(lanes, steps, 99)
-    costs = rng.integers(0, 100, (pixels, count))
+    layout = FRACTION if kind == "fractions" else sum_layout(99)
+    dut = Neighbours(lanes, steps, layout)
+    costs = drawn(kind, rng, (pixels, count), 100)
+    worth = [[value(cost, kind) for cost in of_pixel] for of_pixel in costs]
     excluded = (np.arange(count) >= rng.integers(1, count + 3, pixels)[:, None]).astype(int)
-    winners = [int(np.argmin(np.where(e, 100, c))) for c, e in zip(costs, excluded, strict=True)]
+    winners = [
+        min((w, d) for d, w in enumerate(of_pixel) if not out[d])[1]
+        for of_pixel, out in zip(worth, excluded, strict=True)
+    ]
     clocks: list[dict] = [{} for _ in range(pixels * steps + dut.latency + 1)]
     for k in range(pixels):
         for step in range(steps):
@@ -74,11 +115,16 @@ def test_neighbours(lanes: int, steps: int) -> None:
                 "winner": winners[k],
             }
             clocks[at + Neighbours.costs_late] |= {
-                "costs": of_step(costs[k], lanes, steps, step),
+                "costs": costs_of_step(costs[k], lanes, steps, step),
                 "excluded": bits_of(of_step(excluded[k], lanes, steps, step)),
             }
+
+    def given(name: str) -> list[Fraction | float]:
+        costs = [layout.from_bits(bits) for bits in observe(dut, clocks, name)]
+        return [value(np.array((cost.num, cost.den)), kind) for cost in costs]
+
     for name in ("below", "above"):
-        seen = observe(dut, clocks, name)
+        seen = given(name)
         has = observe(dut, clocks, f"has_{name}")
         for k, winner in enumerate(winners):
             beside = winner + (1 if name == "above" else -1)
@@ -86,14 +132,26 @@ def test_neighbours(lanes: int, steps: int) -> None:
             at = (k + 1) * steps - 1 + dut.latency
             assert has[at] == there
             if there:
-                assert seen[at] == costs[k, beside]
-    seen, has = observe(dut, clocks, "runner_up"), observe(dut, clocks, "has_runner_up")
+                assert seen[at] == worth[k][beside]
+    seen, has = given("runner_up"), observe(dut, clocks, "has_runner_up")
     for k, winner in enumerate(winners):
-        far = [costs[k, d] for d in range(count) if abs(d - winner) > 1 and not excluded[k, d]]
+        far = [worth[k][d] for d in range(count) if abs(d - winner) > 1 and not excluded[k, d]]
         at = (k + 1) * steps - 1 + dut.latency
         assert has[at] == bool(far)
         if far:
             assert seen[at] == min(far)
+
+
+def test_numbers_of_fractions() -> None:
+    """Every small fraction, those that the range cuts off, and what has no denominator."""
+    low, high = Config.preset("paper").number_range
+    layout = data.StructLayout({"num": range(-200, 200), "den": range(40)})
+    fractions = [(n, d) for n in range(-40, 41) for d in (1, 2, 3, 7, 39)] + [(1, 0), (-200, 1), (199, 1)]
+    expected = [
+        min(max((n << QUOTIENT_BITS) // d, low), high) - low if d else high - low for n, d in fractions
+    ]
+    assert {0, high - low} < set(expected)
+    assert piped(Number(layout, low, high), [{"i": {"num": n, "den": d}} for n, d in fractions]) == expected
 
 
 def test_sixteenths_are_exact() -> None:

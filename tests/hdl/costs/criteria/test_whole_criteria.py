@@ -7,7 +7,7 @@ from amaranth.hdl import Shape
 from softdepth.hdl.costs.criteria.row_box import RowBox
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.criteria.support import SupportMean, SupportWeights
-from softdepth.hdl.costs.criteria.unlikeness import GradientDifference, Hamming
+from softdepth.hdl.costs.criteria.unlikeness import ColourDifference, GradientDifference, Hamming
 from tests.support.simulation import observe
 
 
@@ -29,7 +29,7 @@ def test_hamming(bits: int, neutral: int) -> None:
     assert observe(Hamming(bits, neutral), clocks, "o")[2:] == expected
 
 
-@pytest.mark.parametrize(("cap", "truncation", "neutral"), [(31, 16, 2), (7, 40, 3), (2, 1, 1)])
+@pytest.mark.parametrize(("cap", "truncation", "neutral"), [(31, 16, 2), (7, 40, 3), (2, 1, 1), (1, 40, 9)])
 def test_gradient_difference(cap: int, truncation: int, neutral: int) -> None:
     rng = np.random.default_rng(cap)
     a, b = rng.integers(-cap, cap + 1, (2, 80))
@@ -42,8 +42,25 @@ def test_gradient_difference(cap: int, truncation: int, neutral: int) -> None:
         for k in range(80)
     ]
     shape = Shape.cast(range(-cap, cap + 1))
-    dut = GradientDifference(shape, max(2 * cap, neutral), truncation, neutral)
-    assert observe(dut, clocks, "o")[2:] == expected
+    assert observe(GradientDifference(shape, 2 * cap, truncation, neutral), clocks, "o")[2:] == expected
+
+
+@pytest.mark.parametrize(("channels", "bits"), [(3, 8), (1, 12)])
+def test_colour_difference(channels: int, bits: int) -> None:
+    rng = np.random.default_rng(bits)
+    a, b = rng.integers(0, 1 << bits, (2, 80, channels))
+    a[0], b[0] = 0, (1 << bits) - 1
+    absent, inside = delayed_flags(rng, 80)
+    absent[0], inside[0] = 0, 1
+
+    def packed(pixel: np.ndarray) -> int:
+        return sum(int(v) << bits * k for k, v in enumerate(pixel))
+
+    clocks = [{"a": packed(a[k]), "b": packed(b[k])} for k in range(80)] + [{}, {}]
+    for k in range(80):
+        clocks[k + 1] |= {"absent": int(absent[k]), "inside": int(inside[k])}
+    expected = [0 if absent[k] or not inside[k] else int(abs(a[k] - b[k]).sum()) for k in range(80)]
+    assert observe(ColourDifference(channels, bits), clocks, "o")[2:] == expected
 
 
 def test_running_sums_begin_from_0_on_each_frame() -> None:

@@ -1,0 +1,74 @@
+"""The smallest of fractions some of which are excluded, wherever they stand."""
+
+from amaranth.hdl import Module, Signal, Value
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.winners.argmin import ArgminSequence, FractionMin, candidate_layout
+from softdepth.hdl.winners.argmin import latency as node_latency
+
+
+class LeastFraction(wiring.Component):
+    """The least cost of all lanes and steps of a pixel.
+
+    Unlike in `ArgminTree`, those that are excluded need not be the last ones.
+
+    Members
+    -------
+    valid, last, costs, excluded : a step's, and that it is its pixel's last.
+    o, found : the least, and whether there is any, `latency` clocks after the last step.
+    """
+
+    def __init__(self, cost: data.StructLayout, lanes: int, steps: int) -> None:
+        self._lanes = lanes
+        self._candidate = candidate_layout(cost.members["num"], cost.members["den"], 1)
+        self._sequence = ArgminSequence(self._candidate, steps)
+        self._levels = (lanes - 1).bit_length()
+        self._node_latency = node_latency(self._candidate)
+        self.latency = self._node_latency * self._levels + self._sequence.latency
+        super().__init__(
+            {
+                "valid": In(1),
+                "last": In(1),
+                "costs": In(data.ArrayLayout(cost, lanes)),
+                "excluded": In(lanes),
+                "o": Out(cost),
+                "found": Out(1),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        level: list[data.View] = []
+        for k in range(self._lanes):
+            candidate = Signal(self._candidate, name=f"candidate_{k}")
+            m.d.comb += [
+                candidate.num.eq(self.costs[k].num),
+                candidate.den.eq(self.costs[k].den),
+                candidate.excluded.eq(self.excluded[k]),
+            ]
+            level.append(candidate)
+        while len(level) > 1:
+            following: list[data.View] = []
+            for k in range(0, len(level) - 1, 2):
+                m.submodules[f"node_{len(level)}_{k}"] = node = FractionMin(self._candidate)
+                m.d.comb += [node.a.eq(level[k]), node.b.eq(level[k + 1])]
+                following.append(node.o)
+            if len(level) % 2:
+                m.submodules[f"wait_{len(level)}"] = wait = Delay(self._candidate, self._node_latency)
+                m.d.comb += [wait.en.eq(1), wait.i.eq(level[-1])]
+                following.append(wait.o)
+            level = following
+        time = self._node_latency * self._levels
+        m.submodules.sequence = sequence = self._sequence
+        m.d.comb += [
+            sequence.valid.eq(travelling(m, self.valid, time, "valid")[-1]),
+            sequence.last.eq(travelling(m, self.last, time, "last")[-1]),
+            Value.cast(sequence.i).eq(Value.cast(level[0])),
+            self.o.num.eq(sequence.o.num),
+            self.o.den.eq(sequence.o.den),
+            self.found.eq(~sequence.o.excluded),
+        ]
+        return m

@@ -1,0 +1,54 @@
+"""A fuzzy cost as a whole number."""
+
+from amaranth.hdl import Module, Mux, Signal, unsigned
+from amaranth.lib import data, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.divide import divided
+from softdepth.hdl.post.stage import delayed
+from softdepth.spec.config import QUOTIENT_BITS
+
+
+def number_latency(low: int, high: int) -> int:
+    """Of a `Number`: the dividend, a clock for each bit, and the choice."""
+    return 1 + (high - low).bit_length() + 1
+
+
+class Number(wiring.Component):
+    """``floor(num * 2**QUOTIENT_BITS / den)``, held within a range, counted from its lower end. One a clock.
+
+    What has a ``den`` of 0 is infinite: the upper end.
+
+    Parameters
+    ----------
+    cost : layout of a fraction.
+    low, high : the range, `Config.number_range`: ``low`` is not above 0, and their distance is all ones.
+
+    Members
+    -------
+    i : a fraction.
+    o : the number less ``low``, `latency` clocks later.
+    """
+
+    def __init__(self, cost: data.StructLayout, low: int, high: int) -> None:
+        self._low, self._bits = low, (high - low).bit_length()
+        self.latency = number_latency(low, high)
+        super().__init__({"i": In(cost), "o": Out(unsigned(self._bits))})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        bits = self._bits
+        sum_of = (self.i.num << QUOTIENT_BITS) + self.i.den * -self._low
+        dividend = Signal(sum_of.shape(), reset_less=True)
+        divisor = Signal(self.i.den.shape(), reset_less=True)
+        m.d.sync += [dividend.eq(sum_of), divisor.eq(self.i.den)]
+        under = dividend[-1]
+        over = ~(dividend - (divisor << bits))[-1]
+        # Where it is neither, the division is exact.
+        quotient = divided(m, dividend[:-1], divisor, bits)
+        is_under = delayed(m, under, bits, "under")
+        is_over = delayed(m, over, bits, "over")
+        held = Signal.like(self.o, reset_less=True)
+        m.d.sync += held.eq(Mux(is_under, 0, Mux(is_over, (1 << bits) - 1, quotient)))
+        m.d.comb += self.o.eq(held)
+        return m

@@ -48,7 +48,7 @@ def read(paths: Sequence[Path], unit: float) -> Rig:
     if "P1" in found and "P2" in found:
         views = [keys.numbers(found, name, path, (3, 4)) * (1, 1, 1, unit) for name in ("P1", "P2")]
         if not raw:
-            return Rig.of_rectified(*views, size)
+            return Rig.of_rectified(views[0], views[1], size)
         if "R1" in found and "R2" in found:
             turns = [keys.numbers(found, name, path, (3, 3)) for name in ("R1", "R2")]
             rectification = Rectification((turns[0], turns[1]), (views[0], views[1]))

@@ -98,3 +98,51 @@ def test_ci_runs_the_commands_of_the_readme(project):
     assert "\nmake test " in readme
     assert "\nmake demo " in readme
     assert os.access(project / ".ci" / "run", os.X_OK)
+
+
+@pytest.fixture
+def integration(project, tmp_path) -> Path:
+    """``.ci/run`` alone in a folder, with tools that say how they are called and nothing else on the path."""
+    (tmp_path / ".ci").mkdir()
+    shutil.copy(project / ".ci" / "run", tmp_path / ".ci" / "run")
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    for name in ("bash", "dirname", "env"):
+        found = shutil.which(name)
+        assert found
+        (folder / name).symlink_to(found)
+    script(folder / "make", f'echo "make $@" >> {tmp_path}/said')
+    script(folder / "apt-get", f'echo "apt-get $@" >> {tmp_path}/said')
+    script(folder / "timeout", 'shift; exec "$@"')
+    script(folder / "id", "echo 0")
+    return tmp_path
+
+
+def ci(place: Path) -> tuple[int, list[str]]:
+    """How it ends, and what it has called."""
+    (place / "said").unlink(missing_ok=True)
+    done = subprocess.run(
+        ["bash", str(place / ".ci" / "run")],
+        env={"PATH": str(place / "bin"), "HOME": str(place)},
+        capture_output=True,
+        check=False,
+    )
+    return done.returncode, (place / "said").read_text().splitlines()
+
+
+def test_continuous_integration_installs_icarus_where_it_may(integration):
+    every = ["make lint", "make types", "make docs", "make test"]
+    code, said = ci(integration)
+    assert code == 0
+    assert any(line.startswith("apt-get install") and line.endswith(" iverilog") for line in said)
+    assert [line for line in said if line.startswith("make")] == every
+    script(integration / "bin" / "iverilog", "true")
+    assert not any("iverilog" in line for line in ci(integration)[1]), "it is there already"
+    (integration / "bin" / "iverilog").unlink()
+    script(integration / "bin" / "id", "echo 1000")
+    assert ci(integration) == (0, every), "only root may install"
+    script(integration / "bin" / "id", "echo 0")
+    script(integration / "bin" / "apt-get", "exit 100")
+    assert ci(integration) == (0, every), "a network that is not there stops nothing"
+    script(integration / "bin" / "make", f'echo "make $@" >> {integration}/said; [ "$1" != types ]')
+    assert ci(integration) == (1, every[:2]), "what fails is told"

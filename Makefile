@@ -11,7 +11,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 LOCKED := $(VENV)/.locked
 READY := $(VENV)/.ready
-SOURCES := softdepth golden hdl sim tests
+SOURCES := softdepth golden hdl sim tests examples
 DEMO := out/motorcycle
 # Motorcycle's calibration, as scikit-image's documentation gives it
 CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.193 254.877

@@ -11,6 +11,7 @@ from peakrdl_markdown import MarkdownExporter
 
 from softdepth.export.bench import bench
 from softdepth.export.component import CLOCK, component
+from softdepth.export.litex_module import litex_module
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
@@ -30,8 +31,8 @@ def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str
     """The files of the package by their names.
 
     Verilog; a bench with what it sends and compares; the registers in SystemRDL, as a C header and as a
-    page; instantiations in Verilog and VHDL; constraints; an IP-XACT component; and a FuseSoC core, whose
-    target ``lint`` has Verilator read it, and ``sim`` run the bench.
+    page; instantiations in Verilog and VHDL; constraints; an IP-XACT component; a LiteX module; and a
+    FuseSoC core, whose target ``lint`` has Verilator read it, and ``sim`` run the bench.
     """
     core = AxiCore(config, options)
     ports = [
@@ -53,6 +54,7 @@ def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str
         f"{name}.v": to_verilog(core, name),
         f"{name}_instance.v": render("softdepth.export", "instance.v", **values),
         f"{name}_instance.vhd": render("softdepth.export", "instance.vhd", **values),
+        f"{name}_litex.py": litex_module(config, name, options, ports),
         f"{name}.core": render("softdepth.export", "fusesoc.core", **values),
         f"{name}.vlt": render("softdepth.export", "waivers.vlt", **values),
         **bench(config, name, options, ports),

@@ -88,19 +88,18 @@ def _interfaces(bus: Bus, ports: Sequence[dict[str, Any]]) -> list[Interface]:
     own = {f"{name}_{CLOCK}": name for name in found if f"{name}_{CLOCK}" in {port["name"] for port in ports}}
     rest = [name for name in found if name not in own.values()]
     clock = {"ASSOCIATED_BUSIF": ":".join(rest), "ASSOCIATED_RESET": "aresetn"}
-    signals = {"vendor": "xilinx.com", "library": "signal"}
     return [
         *found.values(),
-        Interface(CLOCK, "slave", "clock", {"CLK": CLOCK}, clock, **signals),
-        *(
-            Interface(name, "slave", "clock", {"CLK": name}, {"ASSOCIATED_BUSIF": stream}, **signals)
-            for name, stream in own.items()
-        ),
-        Interface("aresetn", "slave", "reset", {"RST": "aresetn"}, {"POLARITY": "ACTIVE_LOW"}, **signals),
-        Interface(
-            "irq", "master", "interrupt", {"INTERRUPT": "irq"}, {"SENSITIVITY": "LEVEL_HIGH"}, **signals
-        ),
+        _signal(CLOCK, "slave", "clock", "CLK", clock),
+        *(_signal(name, "slave", "clock", "CLK", {"ASSOCIATED_BUSIF": of}) for name, of in own.items()),
+        _signal("aresetn", "slave", "reset", "RST", {"POLARITY": "ACTIVE_LOW"}),
+        _signal("irq", "master", "interrupt", "INTERRUPT", {"SENSITIVITY": "LEVEL_HIGH"}),
     ]
+
+
+def _signal(name: str, role: str, type_: str, logical: str, parameters: dict[str, str]) -> Interface:
+    """An interface of one port."""
+    return Interface(name, role, type_, {logical: name}, parameters, library="signal")
 
 
 def _bus(bus: Bus, ports: Sequence[str]) -> Interface:

@@ -1,0 +1,59 @@
+"""The package as a LiteX module: LiteX's streams, bus and events around the exported Verilog."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+from softdepth.export.component import CLOCK
+from softdepth.spec.axi_options import AxiOptions
+from softdepth.spec.config import Config
+from softdepth.spec.registers import registers
+from softdepth.templates import render
+
+
+@dataclass(frozen=True)
+class Stream:
+    """An AXI stream: what its ports' names begin with, whether it comes in, its ``tdata``'s bits, its clock."""
+
+    prefix: str
+    sink: bool
+    bits: int
+    clock: str | None
+
+
+def streams_of(ports: Sequence[dict[str, Any]]) -> list[Stream]:
+    """The streams among a core's ports, each with its name, direction (``in``, ``out``) and width."""
+    names = {port["name"] for port in ports}
+    found = []
+    for port in ports:
+        if port["name"].endswith("_tdata"):
+            prefix = port["name"].removesuffix("_tdata")
+            own = f"{prefix}_{CLOCK}"
+            found.append(
+                Stream(prefix, port["direction"] == "in", port["width"], own if own in names else None)
+            )
+    return found
+
+
+def litex_class(name: str) -> str:
+    """What the module's class is called."""
+    return "".join(part[:1].upper() + part[1:] for part in re.split("_", name))
+
+
+def litex_module(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[str, Any]]) -> str:
+    """The module's source; see `streams_of` for `ports`."""
+    last = max(register.address for register in registers(config, options))
+    return render(
+        "softdepth.export",
+        "litex_module.py.jinja",
+        name=name,
+        config=config,
+        version=version("softdepth"),
+        bus=options.bus,
+        ports=ports,
+        streams=streams_of(ports),
+        litex_class=litex_class(name),
+        size=1 << last.bit_length(),
+    )

@@ -17,7 +17,7 @@ from litex.gen import LiteXModule
 from litex.soc.integration.builder import Builder
 from litex.soc.integration.soc import SoCRegion
 from litex.soc.integration.soc_core import SoCMini
-from litex.soc.interconnect import axi
+from litex.soc.interconnect import axi, stream
 from migen import ClockDomain
 
 PART, CLOCK_HZ = "LFE5U-85F-6BG381C", 100e6
@@ -65,13 +65,13 @@ class DepthSoC(SoCMini):
         self.bus.add_slave("depth", self.depth.bus, SoCRegion(ORIGIN, core.SIZE, cached=False))
         self.comb += platform.request("irq").eq(self.depth.ev.irq)
 
-        for name in ("s_axis", "m_axis"):
-            endpoint = getattr(self.depth, name)
+        streams = {name: each for name, each in vars(self.depth).items() if isinstance(each, stream.Endpoint)}
+        for name, endpoint in streams.items():
             platform.add_extension([stream_pins(name, len(endpoint.data))])
             pads = platform.request(name)
             pairs = [(pads.tdata, endpoint.data), (pads.tuser, endpoint.sof), (pads.tlast, endpoint.last)]
             pairs += [(pads.tvalid, endpoint.valid), (endpoint.ready, pads.tready)]
-            if name == "m_axis":
+            if name.startswith("m_"):
                 self.comb += [outside.eq(inside) for outside, inside in pairs]
             else:
                 self.comb += [inside.eq(outside) for outside, inside in pairs]

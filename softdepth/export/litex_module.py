@@ -15,7 +15,7 @@ from softdepth.templates import render
 
 @dataclass(frozen=True)
 class Stream:
-    """An AXI stream: what its ports' names begin with, whether it comes in, its ``tdata``'s bits, its clock."""
+    """An AXI stream: what its ports' names begin with, whether it comes in, bits of ``tdata``, its own clock."""
 
     prefix: str
     sink: bool

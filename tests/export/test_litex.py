@@ -14,21 +14,21 @@ from softdepth.hdl.axi.tdata import outcome_layout, pair_bits
 from softdepth.sim.build import TOP, build
 from softdepth.sim.stream import simulate
 from softdepth.spec.axi_options import AxiOptions
-from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.spec.registers import registers
 from tests.export.litex_bench import BYTE, JOB_VARIABLE
 
 CONFIG = Config.preset("sad").override(["max_width=64", "max_height=48", "disparities=8", "lanes=4"])
+WISHBONE = AxiOptions(bus="wishbone")
 LITEX = "/* verilator lint_off COMBDLY */"
 """LiteX assigns with ``<=`` in combinational blocks; its own simulations leave out the warning, too."""
 
 ADDRESSES = {register.name: register.address for register in registers(CONFIG)}
 
 
-def soc(bus: Bus, project: Path, folder: Path, old: str = "", new: str = "") -> tuple[str, dict]:
+def soc(options: AxiOptions, project: Path, folder: Path, old: str = "", new: str = "") -> tuple[str, dict]:
     """The Verilog of SoC and core, and LiteX's map of the addresses; with the module altered."""
-    package = axi_package(CONFIG, "depth", AxiOptions(bus=bus))
+    package = axi_package(CONFIG, "depth", options)
     assert old in package["depth_litex.py"]
     package["depth_litex.py"] = package["depth_litex.py"].replace(old, new)
     for file, text in package.items():
@@ -86,7 +86,7 @@ def check_frames(verilog: str, addresses: dict, folder: Path) -> None:
 
 @pytest.mark.slow
 def test_frames_through_the_soc(project: Path, tmp_path: Path) -> None:
-    check_frames(*soc("wishbone", project, tmp_path), tmp_path)
+    check_frames(*soc(WISHBONE, project, tmp_path), tmp_path)
 
 
 @pytest.mark.full
@@ -99,14 +99,15 @@ def test_frames_through_the_soc(project: Path, tmp_path: Path) -> None:
     ],
 )
 def test_crossed_wires_are_found(project: Path, tmp_path: Path, right: str, wrong: str) -> None:
-    crossed = soc("wishbone", project, tmp_path, right, wrong)
+    crossed = soc(WISHBONE, project, tmp_path, right, wrong)
     with pytest.raises(AssertionError):
         check_frames(*crossed, tmp_path)
 
 
-def test_the_module_takes_axi_lite(project: Path, tmp_path: Path) -> None:
-    """Elaborated, with every port connected; the core's instance is the same but for its bus."""
-    verilog, addresses = soc("axi-lite", project, tmp_path)
+@pytest.mark.parametrize("options", [AxiOptions(), AxiOptions(inputs="two", clocks="own")])
+def test_every_port_is_connected(project: Path, tmp_path: Path, options: AxiOptions) -> None:
+    """On AXI4-Lite, with one stream or two, and with room for every register."""
+    verilog, addresses = soc(options, project, tmp_path)
     instance = re.findall(r"^depth depth\((.*?)^\);", verilog, re.MULTILINE | re.DOTALL)
     assert len(instance) == 1
     connected = re.findall(r"\.(\w+) +\((\S.*?)\)", instance[0])

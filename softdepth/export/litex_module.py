@@ -15,7 +15,7 @@ from softdepth.templates import render
 
 @dataclass(frozen=True)
 class Stream:
-    """An AXI stream: what its ports' names begin with, whether it comes in, bits of ``tdata``, its own clock."""
+    """An AXI stream: how its ports' names begin, whether it comes in, bits of ``tdata``, its own clock."""
 
     prefix: str
     sink: bool

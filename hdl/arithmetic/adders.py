@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from amaranth.hdl import Cat, Const, Shape, Value
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
-from softdepth.hdl.arithmetic.wires import constant, flag, wire
+from softdepth.hdl.arithmetic.wires import wire
+from softdepth.hdl.arithmetic.word import Word
 
 CHAIN_BITS = 40
 """Longest carry chain that sums are joined into."""
@@ -26,7 +26,7 @@ class Field:
         return max(len(self.a.value), len(self.b.value)) + 1
 
 
-def add_fields(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:
+def add_fields(fields: Sequence[Field]) -> list[Word]:
     """``a + b + carry`` of every field in one operation, with few adders for all of them.
 
     The fields lie side by side. Below each is a bit in which both operands are the carry that it is
@@ -37,17 +37,20 @@ def add_fields(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:
     chain: list[Field] = []
     for field in fields:
         if chain and sum(f.bits for f in [*chain, field]) > CHAIN_BITS:
-            results += _chain(pipeline, chain)
+            results += _chain(chain)
             chain = []
         chain.append(field)
-    return results + _chain(pipeline, chain)
+    return results + _chain(chain)
 
 
-def add_with_carry(pipeline: Pipeline, a: Word, b: Word, carry: Word, minimum: int, maximum: int) -> Word:
+def add_with_carry(a: Word, b: Word, carry: Word | int, minimum: int, maximum: int) -> Word:
     """``a + b + carry``, of any sign, known to lie within a range. One operation.
 
     The carry enters as a bit below both words.
     """
+    pipeline = a.pipeline
+    if isinstance(carry, int):
+        carry = pipeline.constant(carry, a.time)
     a, b, carry = pipeline.aligned(a, b, carry)
     bits = Shape.cast(range(minimum, maximum + 1)).width
     total = (Cat(carry.value, _extended(a.value, bits)) + Cat(carry.value, _extended(b.value, bits)))[1:]
@@ -55,24 +58,35 @@ def add_with_carry(pipeline: Pipeline, a: Word, b: Word, carry: Word, minimum: i
     return pipeline.result(value, minimum, maximum, a.time, "sum")
 
 
-def magnitude(
-    pipeline: Pipeline, word: Word, negative: Word, bits: int, maximum: int, *, less_1: bool = True
-) -> Word:
-    """``|word + 1|``, or ``|word|`` if it is not one `less_1`, from its low bits and its sign. One operation.
+def magnitude(word: Word, negative: Word, bits: int, maximum: int) -> Word:
+    """``|word|``, from its low bits and its sign. One operation.
 
-    The complement of a negative word is its magnitude less 1, which comes in as a carry: of the negative
-    ones, or of the others where the word itself is one less.
+    The one's complement of a negative word is its magnitude less 1, and the carry is that 1.
     """
+    return _folded(word, negative, bits, negative, maximum)
+
+
+def distance(less_1: Word, negative: Word, bits: int, maximum: int) -> Word:
+    """``|a - b|``, from the low bits and the sign of ``a - b - 1``. One operation.
+
+    The one's complement of a negative ``a - b - 1`` is ``b - a`` itself; otherwise the carry is the 1 that is
+    missing. So neither the difference nor its magnitude needs more than one adder.
+    """
+    return _folded(less_1, negative, bits, ~negative, maximum)
+
+
+def _folded(word: Word, negative: Word, bits: int, carry: Word, maximum: int) -> Word:
+    """The low bits, or their complement where the word is negative, and a carry."""
 
     def fold(value: Value, sign: Value) -> Value:
         return value[:bits] ^ sign.replicate(bits)
 
-    folded = wire(pipeline, fold, word, negative, minimum=0, maximum=2**bits - 1)
-    carry = flag(pipeline, lambda sign: ~sign if less_1 else sign, negative)
-    return add_with_carry(pipeline, folded, constant(0, folded), carry, 0, maximum)
+    folded = wire(fold, word, negative, minimum=0, maximum=2**bits - 1)
+    return add_with_carry(folded, word.pipeline.constant(0, folded.time), carry, 0, maximum)
 
 
-def _chain(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:
+def _chain(fields: Sequence[Field]) -> list[Word]:
+    pipeline = fields[0].a.pipeline
     time = max(w.time for f in fields for w in (f.a, f.b, f.carry) if w is not None)
     a: list[Value] = []
     b: list[Value] = []
@@ -91,7 +105,7 @@ def _chain(pipeline: Pipeline, fields: Sequence[Field]) -> list[Word]:
     for field, start in zip(fields, starts, strict=True):
         maximum = field.a.maximum + field.b.maximum + (field.carry is not None)
         value = total.value[start : start + min(field.bits, maximum.bit_length())]
-        results.append(Word(value, 0, maximum, total.time))
+        results.append(Word(value, 0, maximum, total.time, pipeline))
     return results
 
 

@@ -1,10 +1,12 @@
 """Pipelined arithmetic that keeps its own books: widths and clocks."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TypeVar
 
 from amaranth.hdl import Array, Const, Module, Mux, Shape, Signal, Value, ValueLike
+
+from softdepth.hdl.arithmetic.word import Word
 
 T = TypeVar("T")
 
@@ -14,16 +16,6 @@ SMALL_TABLE = 128
 
 LEVELS = 2
 """Operations between two registers."""
-
-
-@dataclass(frozen=True)
-class Word:
-    """A number in a pipeline: its signal, the range it can take, and its time in operations."""
-
-    value: Value
-    minimum: int
-    maximum: int
-    time: int
 
 
 class Pipeline:
@@ -43,15 +35,21 @@ class Pipeline:
 
     def input(self, value: ValueLike, maximum: int, *, minimum: int = 0, time: int = 0) -> Word:
         """A word that enters the pipeline at ``time``."""
-        return Word(Value.cast(value), minimum, maximum, time)
+        return Word(Value.cast(value), minimum, maximum, time, self)
+
+    def constant(self, value: int, time: int) -> Word:
+        """A constant, of a ``time`` like that of the words beside it."""
+        shape = _shape(min(value, 0), max(value, 1))
+        return Word(Const(value, shape), value, value, time, self)
 
     def result(self, value: ValueLike, minimum: int, maximum: int, time: int, name: str = "result") -> Word:
         """The word ``value``, an operation on words of ``time``; timing reports speak of it by ``name``."""
         if (time + 1) % self._levels == 0:
-            return Word(self._register(value, minimum, maximum, name), minimum, maximum, time + 1)
+            register = self._register(value, minimum, maximum, name)
+            return Word(register, minimum, maximum, time + 1, self)
         wire = Signal(_shape(minimum, maximum), name=name)
         self._m.d.comb += wire.eq(value)
-        return Word(wire, minimum, maximum, time + 1)
+        return Word(wire, minimum, maximum, time + 1, self)
 
     def at(self, word: Word, time: int) -> Word:
         """``word`` delayed until ``time``."""
@@ -59,14 +57,14 @@ class Pipeline:
             raise ValueError(f"a word of time {word.time} is not there at time {time}")
         value = word.value
         if isinstance(value, Const):
-            return Word(value, word.minimum, word.maximum, time)
+            return replace(word, time=time)
         for clock in range(word.time // self._levels, time // self._levels):
             key = (id(value), clock)
             if key not in self._delayed:
                 late = self._register(value, word.minimum, word.maximum, _late(value))
                 self._delayed[key] = (value, late)
             value = self._delayed[key][1]
-        return Word(value, word.minimum, word.maximum, time)
+        return replace(word, value=value, time=time)
 
     def clock(self, word: Word) -> int:
         """The clock in which ``word`` is there."""
@@ -109,9 +107,8 @@ class Pipeline:
         there = (clocks(max(a.time, b.time), self._levels) + 1) * self._levels
         a, b = self.at(a, there), self.at(b, there)
         highest = a.maximum * b.maximum
-        return Word(
-            self._register(a.value * b.value, 0, highest, "product"), 0, highest, there + self._levels
-        )
+        product = self._register(a.value * b.value, 0, highest, "product")
+        return Word(product, 0, highest, there + self._levels, self)
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""
@@ -139,14 +136,16 @@ class Pipeline:
         """``word``, known by other reasoning to stay within a narrower range: wires only."""
         shape = _shape(minimum, maximum)
         bits = word.value[: shape.width]
-        return Word(bits.as_signed() if shape.signed else bits, minimum, maximum, word.time)
+        value = bits.as_signed() if shape.signed else bits
+        return Word(value, minimum, maximum, word.time, self)
 
     def shifted(self, word: Word, bits: int) -> Word:
         """``word * 2**bits``: wires only."""
-        return Word(word.value << bits, word.minimum << bits, word.maximum << bits, word.time)
+        low, high = word.minimum << bits, word.maximum << bits
+        return Word(word.value << bits, low, high, word.time, self)
 
     def tree(self, operation: Callable[[T, T], T], words: Sequence[T]) -> T:
-        """Reduce ``words`` with a balanced tree, in ``tree_latency(len(words))`` operations."""
+        """Reduce ``words`` with a balanced tree, in ``tree_operations(len(words))`` operations."""
         level = list(words)
         while len(level) > 1:
             paired = [operation(a, b) for a, b in zip(level[::2], level[1::2], strict=False)]
@@ -180,7 +179,7 @@ def travelling(m: Module, bit: Signal, clocks: int, name: str, *, since: int = 0
     return bits
 
 
-def tree_latency(words: int) -> int:
+def tree_operations(words: int) -> int:
     """Operations in a row that `Pipeline.tree` takes for so many words."""
     return (words - 1).bit_length()
 

@@ -4,7 +4,7 @@ from amaranth.hdl import Module, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, tree_operations
 from softdepth.hdl.costs.comparison import Comparison, Plan
 from softdepth.hdl.costs.cost import FuzzyCost, fraction_layout
 from softdepth.hdl.costs.criteria.row_box import RowBox
@@ -110,7 +110,7 @@ class LaneSums(wiring.Component):
             self.latency = self.criteria_latency + self._cost.latency
             self.layout = fraction_layout(config)
         else:
-            self.latency = self.criteria_latency + tree_latency(len(self._parts))
+            self.latency = self.criteria_latency + clocks(tree_operations(len(self._parts)), levels=1)
             self.layout = sum_layout(sum(block.maximum << shift for block, _, shift in self._parts))
         super().__init__(
             {

@@ -4,7 +4,8 @@ from amaranth.hdl import Cat, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.arithmetic.pipeline import Pipeline, travelling
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.winners.least_fraction import LeastFraction
 from softdepth.hdl.winners.shapes import is_fraction

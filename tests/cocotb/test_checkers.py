@@ -3,12 +3,12 @@
 from collections.abc import Callable
 
 import pytest
-from amaranth.hdl import Const, Module, Value
+from amaranth.hdl import Module
 from amaranth.lib import fifo, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
-from softdepth.hdl.arithmetic.wires import flag
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs import band_costs
 from softdepth.hdl.costs.criteria import column_sad, row_memory
 from softdepth.hdl.costs.fuzzy import cell_inference, mean_inference, rule_array
@@ -104,14 +104,15 @@ def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
-    """MEAN's closed form takes criteria 2 and 3 as lying on one side of their labels."""
+    """MEAN's closed form takes criterion 2 to lie on the side of its label on which criterion 3 does."""
 
-    def never(pipeline: Pipeline, function: Callable[..., Value], *words: Word) -> Word:
-        found = flag(pipeline, function, *words)
-        is_same = len(words) == 2 and all(word.maximum == 1 for word in words)
-        return Word(Const(1, 1), 0, 1, found.time) if is_same else found
+    original = mean_inference.MeanInference._distances
 
-    monkeypatch.setattr(mean_inference, "flag", never)
+    def of_one_side(self: mean_inference.MeanInference, pipe: Pipeline) -> tuple[list[Word], list[Word]]:
+        distances, (_, y_below, z_below) = original(self, pipe)
+        return distances, [y_below, y_below, z_below]
+
+    monkeypatch.setattr(mean_inference.MeanInference, "_distances", of_one_side)
 
 
 FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception], str]] = {

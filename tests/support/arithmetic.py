@@ -6,7 +6,8 @@ from amaranth.hdl import Module, Shape, signed
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, Word
+from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline
+from softdepth.hdl.arithmetic.word import Word
 
 Range = tuple[int, int]
 Build = Callable[[Pipeline, Sequence[Word]], Word]

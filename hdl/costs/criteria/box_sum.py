@@ -4,7 +4,8 @@ from amaranth.hdl import Module
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start, travelling
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start, travelling
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.memory.delay import Delay
 
 
@@ -52,7 +53,7 @@ class BoxSum(wiring.Component):
         def box(width: int) -> Word:
             if width not in sums:
                 near = width // 2
-                sums[width] = pipeline.add(box(near), pixels_ago(box(width - near), near))
+                sums[width] = box(near) + pixels_ago(box(width - near), near)
             return sums[width]
 
         total = box(self._window)

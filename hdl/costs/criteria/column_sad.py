@@ -8,8 +8,8 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.adders import Field, add_fields
-from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, Word, clocks, start, tree_latency
-from softdepth.hdl.arithmetic.wires import constant
+from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, clocks, start, tree_operations
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.criteria.row_memory import LOOKUP_AHEAD, RowMemory
 from softdepth.hdl.signatures import pixel_layout
 from softdepth.spec.config import PixelFormat
@@ -25,9 +25,9 @@ class Difference:
     word: Word
     sign: Word
 
-    def magnitude(self, pipeline: Pipeline, time: int) -> Word:
+    def magnitude(self, time: int) -> Word:
         """``|a - b| - sign``: the difference, or its one's complement, at ``time``."""
-        word, sign = pipeline.at(self.word, time), pipeline.at(self.sign, time)
+        word, sign = self.word.at(time), self.sign.at(time)
         return replace(word, value=~(word.value ^ sign.value.replicate(len(word.value))))
 
     def complement(self) -> Word:
@@ -101,13 +101,13 @@ class ColumnSad(wiring.Component):
         for window in self._windows:
             radius = window // 2
             ring = pipeline.tree(
-                lambda a, b: _add(pipeline, a, b),
+                _add,
                 [row for offset, row in rows.items() if inner < abs(offset) <= radius],
             )
             inner = radius
-            total = _add(pipeline, total, ring) if total else ring
+            total = _add(total, ring) if total else ring
             assert total.missing is None
-            cost = pipeline.at(total.word, self.latency * LEVELS)
+            cost = total.word.at(self.latency * LEVELS)
             m.d.comb += self.o[f"c{window}"].eq(cost.value)
         return m
 
@@ -152,7 +152,7 @@ def _sum_operations(windows: Sequence[int]) -> int:
     """Operations in a row from the costs of the rows to those of the column."""
     operations, inner = 0, 0
     for window in windows:
-        ring = tree_latency(window - inner)
+        ring = tree_operations(window - inner)
         operations = max(operations, ring) + 1 if inner else ring
         inner = window
     return operations
@@ -169,35 +169,35 @@ def _row_costs(
     rows = {offset: _differences(pipeline, pixel, time, *pair) for offset, pair in pixels.items()}
     ready = time + row_operations(pixel)
     if pixel.channels == 1:
-        return {o: _gray_cost(pipeline, gray, ready, whole=o in complete) for o, (gray,) in rows.items()}
+        return {o: _gray_cost(gray, ready, whole=o in complete) for o, (gray,) in rows.items()}
     # Two inverted operands do not fit into a carry cell of ECP5, two complements of them do: the
     # complement of x + y + carry is the sum of their complements and the carry's.
     first = {(offset, 0): _complement(red, green) for offset, (red, green, _) in rows.items()}
     first |= {(offset, 1): _complement(row[2]) for offset, row in rows.items() if offset in complete}
     sums = {
         key: replace(word, value=~word.value, maximum=2 * pixel.maximum)
-        for key, word in zip(first, add_fields(pipeline, list(first.values())), strict=True)
+        for key, word in zip(first, add_fields(list(first.values())), strict=True)
     }
     second = []
     for offset, (_, green, blue) in rows.items():
         pair = sums[offset, 0]
-        whole = sums.get((offset, 1), blue.magnitude(pipeline, pair.time))
-        second.append(Field(pair, whole, pipeline.at(green.sign, pair.time)))
+        whole = sums.get((offset, 1), blue.magnitude(pair.time))
+        second.append(Field(pair, whole, green.sign.at(pair.time)))
     return {
         offset: Summand(
             replace(word, maximum=column_maximum(1, pixel)),
             None if offset in complete else rows[offset][2].sign,
         )
-        for offset, word in zip(rows, add_fields(pipeline, second), strict=True)
+        for offset, word in zip(rows, add_fields(second), strict=True)
     }
 
 
-def _gray_cost(pipeline: Pipeline, gray: Difference, ready: int, *, whole: bool) -> Summand:
+def _gray_cost(gray: Difference, ready: int, *, whole: bool) -> Summand:
     """The cost of a gray pixel, one operation after its difference if it must be ``whole``."""
     if not whole:
-        return Summand(gray.magnitude(pipeline, ready), pipeline.at(gray.sign, ready))
-    part = gray.magnitude(pipeline, ready - 1)
-    (word,) = add_fields(pipeline, [Field(part, constant(0, part), pipeline.at(gray.sign, ready - 1))])
+        return Summand(gray.magnitude(ready), gray.sign.at(ready))
+    part = gray.magnitude(ready - 1)
+    (word,) = add_fields([Field(part, part.pipeline.constant(0, part.time), gray.sign.at(ready - 1))])
     return Summand(replace(word, value=word.value[: len(part.value)], maximum=part.maximum))
 
 
@@ -211,10 +211,10 @@ def _differences(
     ]
     return [
         Difference(
-            Word(word.value[: pixel.bits], 0, pixel.maximum, word.time),
-            Word(word.value[pixel.bits], 0, 1, word.time),
+            replace(word[: pixel.bits], maximum=pixel.maximum),
+            word[pixel.bits],
         )
-        for word in add_fields(pipeline, fields)
+        for word in add_fields(fields)
     ]
 
 
@@ -224,9 +224,9 @@ def _complement(a: Difference, b: Difference | None = None) -> Field:
     return Field(a.complement(), other, replace(a.sign, value=~a.sign.value))
 
 
-def _add(pipeline: Pipeline, a: Summand, b: Summand) -> Summand:
+def _add(a: Summand, b: Summand) -> Summand:
     """Their sum: what is missing from one of them comes in as its carry."""
     if a.missing is None:
         a, b = b, a
-    (word,) = add_fields(pipeline, [Field(a.word, b.word, a.missing)])
+    (word,) = add_fields([Field(a.word, b.word, a.missing)])
     return Summand(word, b.missing)

@@ -4,7 +4,7 @@ from amaranth.hdl import Module, Value
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, tree_operations
 from softdepth.hdl.memory.delay import Delay
 
 
@@ -25,7 +25,7 @@ class RowBox(wiring.Component):
 
     def __init__(self, maximum: int, columns: int, lag: int, steps: int) -> None:
         self._maximum, self._columns, self._lag, self._steps = maximum, columns, lag, steps
-        self.latency = tree_latency(columns)
+        self.latency = clocks(tree_operations(columns), levels=1)
         self.maximum = maximum * columns
         super().__init__(
             {"valid": In(1), "column": In(range(maximum + 1)), "o": Out(range(self.maximum + 1))}

@@ -6,7 +6,8 @@ from amaranth.hdl import Module
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, travelling
+from softdepth.hdl.arithmetic.pipeline import Pipeline, travelling
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.box_sum import BoxSum
 from softdepth.hdl.costs.criteria.column_sad import ColumnSad, column_maximum

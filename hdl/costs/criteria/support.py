@@ -5,7 +5,7 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.colour import alike
-from softdepth.hdl.arithmetic.pipeline import Pipeline, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, tree_operations
 from softdepth.hdl.arithmetic.popcount import popcount
 from softdepth.hdl.memory.delay import Delay
 from softdepth.spec.criteria import RECIPROCAL_BITS, SUPPORT_SHIFT
@@ -121,7 +121,7 @@ class SupportMean(wiring.Component):
         self._maximum, self._taps, self._gap = maximum, taps, spacing * steps
         self.table = reciprocals(taps)
         self.maximum = max(n * maximum * r >> SUPPORT_SHIFT for n, r in enumerate(self.table, start=1))
-        self.latency = 1 + tree_latency(taps) + MULTIPLY_CLOCKS
+        self.latency = 1 + clocks(tree_operations(taps), levels=1) + MULTIPLY_CLOCKS
         super().__init__(
             {
                 "valid": In(1),

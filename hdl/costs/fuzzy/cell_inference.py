@@ -4,8 +4,9 @@ from amaranth.hdl import Cat, Const, Module, Mux, Value
 from amaranth.lib import wiring
 
 from softdepth.hdl.arithmetic.adders import Field, add_fields, add_with_carry
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start
-from softdepth.hdl.arithmetic.wires import choose, constant, flag, inverted, masked
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start
+from softdepth.hdl.arithmetic.wires import choose
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.cell_rules import joins_corners
 from softdepth.hdl.costs.fuzzy.inference import inference_ports, position
 from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS
@@ -58,38 +59,35 @@ class CellInference(wiring.Component):
         (b, b_above), (c, c_above) = (self._upper(pipe, i) for i in (1, 2))
 
         ready = self._start + 1 + self._operator.corner_operations
-        pairs = [pipe.at(pair, ready) for pair in self._operator.corners(pipe, b, c)]
-        a = Position(pipe.at(a.outer, ready), pipe.at(a.middle, ready))
+        pairs = [pair.at(ready) for pair in self._operator.corners(pipe, b, c)]
+        a = Position(a.outer.at(ready), a.middle.at(ready))
         (f0, f1, f2), (g0, g1, g2) = zip(*(self._operator.fire(pipe, a, pair) for pair in pairs), strict=True)
-        both = flag(pipe, lambda b, c: b & c, b_above, c_above)
-        neither = flag(pipe, lambda b, c: ~b & ~c, b_above, c_above)
+        both = b_above & c_above
+        neither = ~b_above & ~c_above
         if self._joins:
             # The larger pair is found once, and then whose strengths count.
-            corner = choose(pipe, pipe.at(b_above, ready), pairs[2], pairs[0])
-            larger = flag(pipe, lambda v: ~v[-1], pipe.add(corner, inverted(pipe, pairs[1])))
-            in_f = flag(pipe, lambda above, n: above & n, a_above, neither)
-            f1 = choose(pipe, flag(pipe, lambda x, y: x & y, in_f, larger), f0, f1)
-            f0 = masked(pipe, f0, in_f, keep=0)
-            g1 = choose(pipe, flag(pipe, lambda x, y: x & y, both, larger), g2, g1)
-            g2 = masked(pipe, g2, both, keep=0)
+            larger = choose(b_above.at(ready), pairs[2], pairs[0]) > pairs[1]
+            in_f = a_above & neither
+            f1 = choose(in_f & larger, f0, f1)
+            f0 = choose(in_f, 0, f0)
+            g1 = choose(both & larger, g2, g1)
+            g2 = choose(both, 0, g2)
 
         low, high = self._config.strength_range
-        f = pipe.add(pipe.add(f0, f1), f2)
-        g = pipe.add(g1, g2)
+        f = f0 + f1 + f2
+        g = g1 + g2
         # A carry of 0: without it, synthesis makes one sum of three operands, which takes more logic.
-        den = pipe.add(f, add_with_carry(pipe, g, g0, constant(0, g), 3 * low, 3 * high))
+        den = f + add_with_carry(g, g0, 0, 3 * low, 3 * high)
         # What complements lack: 1 in f2 - f0, and none in g2 - g0, which is one of a complement.
-        f_rise = pipe.add(f2, inverted(pipe, f0))
-        g_fall = pipe.add(g0, inverted(pipe, g2))
-        one = constant(1, f_rise)
-        num = add_with_carry(pipe, f_rise, inverted(pipe, g_fall), one, -6 * high, 6 * high)
-        e_den = choose(pipe, both, den, choose(pipe, neither, inverted(pipe, den), constant(0, den)))
-        num = add_with_carry(pipe, num, e_den, neither, -6 * high, 6 * high)
-        f_3 = pipe.at(pipe.add(f, pipe.shifted(f, 1)), num.time)
-        a_below = flag(pipe, lambda above: ~above, a_above)
-        f_3 = choose(pipe, a_above, f_3, inverted(pipe, f_3))
-        num = add_with_carry(pipe, num, f_3, a_below, *self._config.cost_range[0])
-        den = pipe.within(pipe.at(den, num.time), *self._config.cost_range[1])
+        f_rise = f2 + f0.inverted
+        g_fall = g0 + g2.inverted
+        num = add_with_carry(f_rise, g_fall.inverted, 1, -6 * high, 6 * high)
+        e_den = choose(both, den, choose(neither, den.inverted, 0))
+        num = add_with_carry(num, e_den, neither, -6 * high, 6 * high)
+        f_3 = (f + (f << 1)).at(num.time)
+        f_3 = choose(a_above, f_3, f_3.inverted)
+        num = add_with_carry(num, f_3, ~a_above, *self._config.cost_range[0])
+        den = den.at(num.time).within(*self._config.cost_range[1])
         assert num.time == self._start + self._operations
         m.d.comb += [self.num.eq(num.value), self.den.eq(den.value)]
         return m
@@ -112,7 +110,7 @@ class CellInference(wiring.Component):
 
         def membership(bits: Value, carry: Value) -> Word:
             word = pipe.input(bits, self._config.one - 1, time=self._start)
-            return add_fields(pipe, [Field(word, none, pipe.input(carry, 1, time=self._start))])[0]
+            return add_fields([Field(word, none, pipe.input(carry, 1, time=self._start))])[0]
 
         inverse = above.replicate(len(fraction))
         outer = membership(fraction ^ ~inverse, ~above | limited)

@@ -1,10 +1,13 @@
 """MEAN's inference over the corrected rules of a cell, in closed form (Bobyr et al. 2021, steps 2 to 4)."""
 
+from dataclasses import replace
+
 from amaranth.hdl import Cat, Const, Module, Mux, Value
 from amaranth.lib import wiring
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start
-from softdepth.hdl.arithmetic.wires import choose, flag, wire
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start
+from softdepth.hdl.arithmetic.wires import choose, wire
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.inference import inference_ports, position
 from softdepth.spec.config import Config
 
@@ -50,14 +53,15 @@ class CellMeanInference(wiring.Component):
         # B - C, and in place of its sign whether X is B: a's bit above B turns it over.
         turned = (Cat(b.value, upper.value) - c.value)[: len(b.value) + 1]
         turned = pipe.result(turned, 0, 4 * one - 1, b.time)
-        x_is_b = flag(pipe, lambda v: v[-1], turned)
-        below = flag(pipe, lambda x, u: x ^ u, x_is_b, upper)
-        d = wire(pipe, lambda v, s: Cat(v[:-1], s), turned, below, minimum=0, maximum=4 * one - 1)
+        x_is_b = turned[len(turned) - 1]
+        below = x_is_b ^ upper
+        d = wire(lambda v, s: Cat(v[:-1], s), turned, below, minimum=0, maximum=4 * one - 1)
 
-        thrice = flag(pipe, lambda v, w: v & w, b_differs, c_differs)
-        first, z = self._first_and_z(pipe, a, choose(pipe, x_is_b, b, c), d, thrice)
-        minus = flag(pipe, lambda x, v, w: x ^ ~(v | w), x_is_b, b_differs, c_differs)
-        negative = flag(pipe, lambda u, v, w: u ^ ~(v | w), upper, b_differs, c_differs)
+        thrice = b_differs & c_differs
+        first, z = self._first_and_z(pipe, a, choose(x_is_b, b, c), d, thrice)
+        equal = ~(b_differs | c_differs)
+        minus = x_is_b ^ equal
+        negative = upper ^ equal
         half, second = self._half_and_second(pipe, a, d, z, minus, negative)
 
         first, second = pipe.aligned(first, second)
@@ -67,7 +71,7 @@ class CellMeanInference(wiring.Component):
 
         ready = start(OPERATIONS) + OPERATIONS
         assert num.time == ready
-        den = Cat(Const(0, 1), pipe.at(half, ready).value) | 8 * one
+        den = Cat(Const(0, 1), half.at(ready).value) | 8 * one
         m.d.comb += [self.num.eq(num.value), self.den.eq(den)]
         return m
 
@@ -81,7 +85,7 @@ class CellMeanInference(wiring.Component):
             return pipe.result(value, 0, (1 << len(value)) - 1, time).value
 
         def word(value: Value, maximum: int) -> Word:
-            return Word(value, 0, maximum, time + 1)
+            return pipe.input(value, maximum, time=time + 1)
 
         (a, a_beyond, a_top), *others = (position(self._config, self.i, i) for i in range(3))
         a_upper = a_beyond | a_top
@@ -109,9 +113,12 @@ class CellMeanInference(wiring.Component):
         once, again = d.value[1:], d.value[:-1] & thrice.value.replicate(bits + 1)
         total = Cat(a.value, once) + Cat(x.value, Const(0, 2), again)
         total = pipe.result(total[: 2 * bits + 4], 0, (16 << 2 * bits) - 1, d.time)
-        low = pipe.at(d, total.time).value[0]
+        low = d.at(total.time).value[0]
         z = Cat(low, total.value[bits + 3 :])
-        return Word(total.value[: bits + 3], 0, 7 * one, total.time), Word(z, 0, 4 * one - 1, total.time)
+        return (
+            replace(total[: bits + 3], maximum=7 * one),
+            pipe.input(z, 4 * one - 1, time=total.time),
+        )
 
     def _half_and_second(
         self, pipe: Pipeline, a: Word, d: Word, z: Word, minus: Word, negative: Word
@@ -133,10 +140,10 @@ class CellMeanInference(wiring.Component):
             ~d.value[0], Const(one >> 2, bits), minus.value, term
         )
         total = pipe.result(total[: 2 * bits + 6], 0, (64 << 2 * bits) - 1, z.time)
-        half = Cat(pipe.at(d, total.time).value[0], total.value[1 : bits + 1])
+        half = Cat(d.at(total.time).value[0], total.value[1 : bits + 1])
         return (
-            Word(half, one >> 1, 3 * one >> 1, total.time),
-            Word(total.value[bits + 2 :], 0, 8 * one, total.time),
+            pipe.input(half, 3 * one >> 1, minimum=one >> 1, time=total.time),
+            replace(total[bits + 2 :], maximum=8 * one),
         )
 
 

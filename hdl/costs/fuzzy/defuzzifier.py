@@ -4,13 +4,14 @@ from amaranth.hdl import Module, Mux
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start, tree_operations
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.spec.config import Config
 from softdepth.spec.rules import CONCLUSIONS, weight
 
 SUM_OPERATIONS = max(
-    tree_latency(CONCLUSIONS),
-    1 + tree_latency(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)),
+    tree_operations(CONCLUSIONS),
+    1 + tree_operations(sum(weight(k).bit_count() for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)),
 )
 """Operations in a row of the weighted sum."""
 
@@ -54,19 +55,17 @@ class Defuzzifier(wiring.Component):
         }
         # Opposite weights share a multiple: 5 (Y_1 - Y_11), 4 (Y_2 - Y_10), ...
         differences = {
-            weight(k): pipeline.subtract(y, conclusions[CONCLUSIONS + 1 - k])
-            for k, y in conclusions.items()
-            if weight(k) > 0
+            weight(k): y - conclusions[CONCLUSIONS + 1 - k] for k, y in conclusions.items() if weight(k) > 0
         }
         terms: list[Word] = [
-            pipeline.shifted(difference, bit)
+            difference << bit
             for factor, difference in differences.items()
             for bit in range(factor.bit_length())
             if factor >> bit & 1
         ]
         ready = self._start + SUM_OPERATIONS
-        num = pipeline.at(pipeline.sum(sorted(terms, key=lambda t: t.maximum)), ready)
-        den = pipeline.at(pipeline.sum(list(conclusions.values())), ready)
+        num = pipeline.sum(sorted(terms, key=lambda t: t.maximum)).at(ready)
+        den = pipeline.sum(list(conclusions.values())).at(ready)
         if self._may_vanish:
             vanishes = den.value <= 0
             num = pipeline.result(Mux(vanishes, 1, num.value), num.minimum, num.maximum, ready, "num")

@@ -3,9 +3,10 @@
 from amaranth.hdl import Cat, Const, Module, Mux
 from amaranth.lib import wiring
 
-from softdepth.hdl.arithmetic.adders import Field, add_fields, add_with_carry, magnitude
-from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, Word, clocks
-from softdepth.hdl.arithmetic.wires import choose, flag, inverted, inverted_if, masked, wire
+from softdepth.hdl.arithmetic.adders import Field, add_fields, add_with_carry, distance
+from softdepth.hdl.arithmetic.pipeline import LEVELS, Pipeline, clocks
+from softdepth.hdl.arithmetic.wires import choose, flag, inverted_if, wire
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.inference import inference_ports, position
 from softdepth.spec.config import Config
 
@@ -50,77 +51,65 @@ class MeanInference(wiring.Component):
         one = self._config.one
 
         (x, y, z), (x_below, y_below, z_below) = self._distances(pipe)
-        complement = wire(pipe, lambda v: ~v, y, minimum=0, maximum=2 * one - 1)
-        above, t = add_fields(pipe, [Field(x, complement), Field(x, y)])
-        x_larger = flag(pipe, lambda v: v[bits + 1], above)
-        x_smaller = flag(pipe, lambda v: ~v, x_larger)
-        d = magnitude(pipe, above, x_smaller, bits + 1, one)
-        n = choose(pipe, x_larger, y, x)
-        larger = choose(pipe, x_larger, x, y)
-        same = flag(pipe, lambda a, b: a == b, x_below, y_below)
-        minus = choose(pipe, x_larger, x_below, y_below)  # s < 0
+        complement = wire(lambda v: ~v, y, minimum=0, maximum=2 * one - 1)
+        above, t = add_fields([Field(x, complement), Field(x, y)])
+        x_larger = above[bits + 1]
+        d = distance(above, ~x_larger, bits + 1, one)
+        n = choose(x_larger, y, x)
+        larger = choose(x_larger, x, y)
+        same = ~(x_below ^ y_below)
+        minus = choose(x_larger, x_below, y_below)  # s < 0
 
-        e = pipe.subtract(d, n)
-        c = flag(pipe, lambda same, e: ~same & e[-1], same, e)
-        folds = flag(pipe, lambda same, n: same & n[bits - 1 :].any(), same, n)
-        twice_n = pipe.shifted(n, 1)
+        e = d - n
+        c = choose(same, 0, e.negative)
+        folds = flag(lambda same, n: same & n[bits - 1 :].any(), same, n)
+        twice_n = n << 1
 
         # 2 - t is the complement of t's low bits, and 1; j is 2 - t while h and t fall short of 2.
         # The constant 9 is 1 instead of k's 0, and 8 in a bit above the other terms.
-        h = choose(pipe, same, larger, t)
-        falls_short = flag(pipe, lambda v: ~v[bits + 1 :].any(), pipe.add(h, t))
-        rest = wire(pipe, lambda v: ~v[: bits + 1], t, minimum=0, maximum=2 * one - 1)
-        j = choose(pipe, falls_short, rest, h)
-        j_e = add_with_carry(pipe, masked(pipe, e, c, keep=0), j, falls_short, 0, 2 * one)
-        k_1 = wire(pipe, lambda f, v: Mux(f, v, one), folds, twice_n, minimum=one, maximum=2 * one)
-        terms = pipe.within(pipe.add(pipe.add(t, z), k_1), one, 5 * one)
-        terms = wire(pipe, lambda v: v | 8 * one, terms, minimum=9 * one, maximum=13 * one)
-        terms = pipe.add(pipe.add(j_e, pipe.shifted(j_e, 1)), terms)
+        h = choose(same, larger, t)
+        falls_short = flag(lambda v: ~v[bits + 1 :].any(), h + t)
+        rest = wire(lambda v: ~v[: bits + 1], t, minimum=0, maximum=2 * one - 1)
+        j = choose(falls_short, rest, h)
+        j_e = add_with_carry(choose(c, 0, e), j, falls_short, 0, 2 * one)
+        k_1 = wire(lambda f, v: Mux(f, v, one), folds, twice_n, minimum=one, maximum=2 * one)
+        terms = (t + z + k_1).within(one, 5 * one)
+        terms = wire(lambda v: v | 8 * one, terms, minimum=9 * one, maximum=13 * one)
+        terms = j_e + (j_e << 1) + terms
 
         # p, and -r before it is limited.
-        a = choose(pipe, z_below, pipe.shifted(z, 1), z)
-        bent = choose(pipe, same, n, masked(pipe, e, c))
-        big_a = pipe.within(pipe.add(t, bent), 0, 3 * one)
-        minus_b = choose(pipe, same, d, e)
-        p = add_with_carry(
-            pipe,
-            wire(pipe, lambda v: v - 2 * one, a, minimum=-2 * one, maximum=0),
-            choose(pipe, minus, inverted(pipe, minus_b), big_a),
-            minus,
-            -3 * one,
-            3 * one,
-        )
-        minus_r = add_with_carry(
-            pipe, a, choose(pipe, minus, inverted(pipe, big_a), minus_b), minus, -3 * one, 3 * one
-        )
-        has_r = flag(pipe, lambda v: v[-1], minus_r)
-        p = masked(pipe, p, flag(pipe, lambda v: v[-1], p), keep=0)
-        r_less_1 = masked(pipe, inverted(pipe, minus_r), has_r)
-        twice_r_less_1 = wire(pipe, Cat, has_r, r_less_1, minimum=0, maximum=6 * one)
-        den = pipe.add(terms, add_with_carry(pipe, p, r_less_1, has_r, 0, 6 * one))
-        p_2r = add_with_carry(pipe, p, twice_r_less_1, has_r, 0, 9 * one)
+        a = choose(z_below, z << 1, z)
+        a_less_2 = wire(lambda v: v - 2 * one, a, minimum=-2 * one, maximum=0)
+        big_a = (t + choose(same, n, choose(c, e, 0))).within(0, 3 * one)
+        minus_b = choose(same, d, e)
+        bounds = -3 * one, 3 * one
+        p = add_with_carry(a_less_2, choose(minus, minus_b.inverted, big_a), minus, *bounds)
+        minus_r = add_with_carry(a, choose(minus, big_a.inverted, minus_b), minus, *bounds)
+        has_r = minus_r.negative
+        p = choose(p.negative, 0, p)
+        r_less_1 = choose(has_r, minus_r.inverted, 0)
+        twice_r_less_1 = wire(Cat, has_r, r_less_1, minimum=0, maximum=6 * one)
+        den = terms + add_with_carry(p, r_less_1, has_r, 0, 6 * one)
+        p_2r = add_with_carry(p, twice_r_less_1, has_r, 0, 9 * one)
 
-        g = choose(pipe, same, t, d)
-        third = choose(pipe, c, pipe.shifted(d, 1), larger)
-        sides = pipe.add(pipe.add(g, pipe.shifted(g, 2)), pipe.add(third, pipe.shifted(third, 1)))
-        slope = pipe.shifted(pipe.subtract(pipe.shifted(z, 3), z), 1)  # 14 z
+        g = choose(same, t, d)
+        third = choose(c, d << 1, larger)
+        sides = (g + (g << 2)) + (third + (third << 1))
+        slope = ((z << 3) - z) << 1  # 14 z
         num = add_with_carry(
-            pipe,
-            inverted_if(pipe, z_below, pipe.within(slope, 0, 14 * one)),
-            inverted_if(pipe, minus, pipe.within(sides, 0, 13 * one)),
+            inverted_if(z_below, slope.within(0, 14 * one)),
+            inverted_if(minus, sides.within(0, 13 * one)),
             z_below,
             -27 * one - 1,
             27 * one,
         )
-        k = wire(pipe, lambda f, v: Mux(f, v - one, 0), folds, twice_n, minimum=0, maximum=one)
-        num = add_with_carry(
-            pipe, num, choose(pipe, minus, pipe.shifted(k, 1), k), minus, -27 * one, 28 * one
-        )
-        num = pipe.within(pipe.subtract(num, p_2r), *self._config.cost_range[0])
+        k = wire(lambda f, v: Mux(f, v - one, 0), folds, twice_n, minimum=0, maximum=one)
+        num = add_with_carry(num, choose(minus, k << 1, k), minus, -27 * one, 28 * one)
+        num = (num - p_2r).within(*self._config.cost_range[0])
 
         assert num.time == OPERATIONS
         ready = self.latency * LEVELS
-        m.d.comb += [self.num.eq(pipe.at(num, ready).value), self.den.eq(pipe.at(den, ready).value)]
+        m.d.comb += [self.num.eq(num.at(ready).value), self.den.eq(den.at(ready).value)]
         return m
 
     def _distances(self, pipe: Pipeline) -> tuple[list[Word], list[Word]]:
@@ -139,4 +128,4 @@ class MeanInference(wiring.Component):
                 )
             )
             below.append(pipe.input(low, 1))
-        return add_fields(pipe, fields), below
+        return add_fields(fields), below

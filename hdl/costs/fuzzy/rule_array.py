@@ -4,7 +4,8 @@ from amaranth.hdl import Module
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start, tree_operations
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.membership import memberships_layout
 from softdepth.hdl.costs.fuzzy.operators import OPERATORS
 from softdepth.spec.config import Config
@@ -38,9 +39,9 @@ class RuleArray(wiring.Component):
             for k, rules in rule_base(config.rules).items()
         }
         widest = max(len(pairs) for by_label in self._needs.values() for pairs in by_label.values())
-        pairs = self._operator.pair_operations + tree_latency(widest)
+        pairs = self._operator.pair_operations + tree_operations(widest)
         most = max(len(by_label) for by_label in self._needs.values())
-        operations = pairs + self._operator.fire_operations + tree_latency(most)
+        operations = pairs + self._operator.fire_operations + tree_operations(most)
         self._start = start(operations)
         self._pairs_ready = self._start + pairs
         self._ready = self._start + operations
@@ -80,10 +81,10 @@ class RuleArray(wiring.Component):
 
         for k, by_label in self._needs.items():
             fired = [
-                self._operator.fire(pipeline, membership(1, a), pipeline.at(join(pairs), self._pairs_ready))
+                self._operator.fire(pipeline, membership(1, a), join(pairs).at(self._pairs_ready))
                 for a, pairs in sorted(by_label.items())
             ]
-            strength = pipeline.at(pipeline.tree(pipeline.max, fired), self._ready)
+            strength = pipeline.tree(pipeline.max, fired).at(self._ready)
             assert (strength.minimum, strength.maximum) == self._config.strength_range
             m.d.comb += self.o[f"y{k}"].eq(strength.value)
         return m

@@ -11,8 +11,9 @@ from amaranth.hdl import Const, Module, Shape
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.adders import CHAIN_BITS, Field, add_fields, add_with_carry
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
+from softdepth.hdl.arithmetic.adders import CHAIN_BITS, Field, add_fields, add_with_carry, distance, magnitude
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.word import Word
 from tests.support.arithmetic import Arithmetic, Range
 from tests.support.simulation import piped
 
@@ -48,9 +49,7 @@ class Fields(wiring.Component):
                 for _ in range(self.late):
                     given = pipeline.add(given, pipeline.input(Const(0, 1), 0, time=given.time))
             fields.append(Field(given, word(f"b{k}", b), word(f"c{k}", 1) if carry else None))
-        for k, (total, (a, b, carry)) in enumerate(
-            zip(add_fields(pipeline, fields), self.specs, strict=True)
-        ):
+        for k, (total, (a, b, carry)) in enumerate(zip(add_fields(fields), self.specs, strict=True)):
             assert total.time in (1, self.late + 1)  # a chain waits for its own words only
             assert (total.minimum, total.maximum) == (0, a + b + carry)
             assert len(total.value) == total.maximum.bit_length()
@@ -130,7 +129,7 @@ def test_add_with_carry(a: Range, b: Range) -> None:
     low, high = a[0] + b[0], a[1] + b[1] + 1
 
     def build(p: Pipeline, w: Any) -> Word:
-        return add_with_carry(p, w[0], w[1], w[2], low, high)
+        return add_with_carry(w[0], w[1], w[2], low, high)
 
     dut = Arithmetic([a, b, (0, 1)], 1, build)
     sets = list(product(range(a[0], a[1] + 1), range(b[0], b[1] + 1), (0, 1)))
@@ -143,7 +142,7 @@ def test_add_with_carry(a: Range, b: Range) -> None:
 @pytest.mark.parametrize("known", [(0, 7), (-4, 3), (-1, 0), (0, 1)])
 def test_add_with_carry_within_a_narrower_range(known: Range) -> None:
     """The sum is known to be small: bits above its range are not computed, and no sign is lost."""
-    dut = Arithmetic([(-16, 15), (-16, 15), (0, 1)], 1, lambda p, w: add_with_carry(p, *w, *known))
+    dut = Arithmetic([(-16, 15), (-16, 15), (0, 1)], 1, lambda p, w: add_with_carry(*w, *known))
     sets = [s for s in product(range(-16, 16), range(-16, 16), (0, 1)) if known[0] <= sum(s) <= known[1]]
     got = piped(dut, [{"i": {"a0": x, "a1": y, "a2": c}} for x, y, c in sets])
     assert got == [sum(s) for s in sets]
@@ -153,7 +152,7 @@ def test_add_with_carry_within_a_narrower_range(known: Range) -> None:
 def test_operands_of_an_addition_with_carry_are_aligned() -> None:
     def build(p: Pipeline, w: Any) -> Word:
         late = p.subtract(p.subtract(w[0], w[1]), w[1])
-        return add_with_carry(p, late, w[1], w[2], -20, 20)
+        return add_with_carry(late, w[1], w[2], -20, 20)
 
     random = Random(5)
     sets = [(random.randrange(8), random.randrange(8), random.getrandbits(1)) for _ in range(100)]
@@ -162,3 +161,21 @@ def test_operands_of_an_addition_with_carry_are_aligned() -> None:
         [{"i": {"a0": a, "a1": b, "a2": c}} for a, b, c in sets],
     )
     assert got == [a - b + c for a, b, c in sets]
+
+
+def test_magnitude() -> None:
+    def build(p: Pipeline, w: Any) -> Word:
+        return magnitude(w[0], w[0].negative, 4, 15)
+
+    got = piped(Arithmetic([(-15, 15)], 1, build), [{"i": {"a0": v}} for v in range(-15, 16)])
+    assert got == [abs(v) for v in range(-15, 16)]
+
+
+def test_distance_from_a_difference_less_1() -> None:
+    def build(p: Pipeline, w: Any) -> Word:
+        less_1 = w[0] + w[1].inverted
+        return distance(less_1, less_1.negative, 4, 15)
+
+    sets = list(product(range(16), repeat=2))
+    got = piped(Arithmetic([(0, 15), (0, 15)], 2, build), [{"i": {"a0": a, "a1": b}} for a, b in sets])
+    assert got == [abs(a - b) for a, b in sets]

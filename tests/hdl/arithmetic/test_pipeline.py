@@ -12,7 +12,8 @@ from amaranth.hdl import Const, Module, Shape, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word, clocks, start, travelling, tree_latency
+from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, start, travelling, tree_operations
+from softdepth.hdl.arithmetic.word import Word
 from tests.support.arithmetic import Arithmetic, Range
 from tests.support.simulation import observe, piped
 
@@ -133,18 +134,18 @@ def test_shifted_takes_no_clock(a: Range, bits: int) -> None:
 @pytest.mark.parametrize("count", range(1, 10))
 def test_sum_of_any_number_of_words(count: int) -> None:
     ranges = [(-k, 255 + k) for k in range(count)]
-    check(ranges, tree_latency(count), lambda p, w: p.sum(w), lambda *values: sum(values))
+    check(ranges, tree_operations(count), lambda p, w: p.sum(w), lambda *values: sum(values))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
 def test_tree_of_maxima(count: int) -> None:
     ranges = [(-k, 20 - 3 * k) for k in range(count)]
-    check(ranges, tree_latency(count), lambda p, w: p.tree(p.max, w), lambda *values: max(values))
+    check(ranges, tree_operations(count), lambda p, w: p.tree(p.max, w), lambda *values: max(values))
 
 
-@pytest.mark.parametrize(("count", "latency"), [(1, 0), (2, 1), (3, 2), (4, 2), (5, 3), (16, 4), (17, 5)])
-def test_tree_latency(count: int, latency: int) -> None:
-    assert tree_latency(count) == latency
+@pytest.mark.parametrize(("count", "operations"), [(1, 0), (2, 1), (3, 2), (4, 2), (5, 3), (16, 4), (17, 5)])
+def test_tree_operations(count: int, operations: int) -> None:
+    assert tree_operations(count) == operations
 
 
 def test_operands_of_different_times_are_aligned() -> None:

@@ -7,7 +7,8 @@ MIN and PROD have no others: rules outside the cell have no strength.
 from collections.abc import Callable
 from typing import Protocol
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.operators.cell import CellOperator
 from softdepth.hdl.costs.fuzzy.operators.cell_mean import CellMean
 from softdepth.hdl.costs.fuzzy.operators.mean import Mean

@@ -5,8 +5,9 @@ from typing import Protocol
 
 from amaranth.hdl import Cat, Const, Value
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
-from softdepth.hdl.arithmetic.wires import choose, flag, inverted, wire
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.wires import choose, wire
+from softdepth.hdl.arithmetic.word import Word
 
 Corners = tuple[Word, Word, Word]
 
@@ -40,7 +41,7 @@ class CellOperator(Protocol):
         ...
 
 
-def complement(pipeline: Pipeline, word: Word, one: int) -> Word:
+def complement(word: Word, one: int) -> Word:
     """``one - 1 - word`` of a word from above ``-one`` up to `one - 1`, or from 0 up to `one`. Wires only."""
     bits = one.bit_length() - 1
     low, high = one - 1 - word.maximum, one - 1 - word.minimum
@@ -50,18 +51,18 @@ def complement(pipeline: Pipeline, word: Word, one: int) -> Word:
         inverse = Cat(~Cat(v, Const(0, bits))[:bits], top)
         return inverse.as_signed() if low < 0 else inverse
 
-    return wire(pipeline, invert, word, minimum=low, maximum=high)
+    return wire(invert, word, minimum=low, maximum=high)
 
 
-def order(pipeline: Pipeline, b: Word, c: Word) -> tuple[Word, Word, Word]:
+def order(b: Word, c: Word) -> tuple[Word, Word, Word]:
     """``b - c - 1``, one operation later, and then the smaller and the larger of both."""
-    difference = pipeline.add(b, inverted(pipeline, c))
-    c_larger = flag(pipeline, lambda v: v[-1], difference)
-    return difference, choose(pipeline, c_larger, b, c), choose(pipeline, c_larger, c, b)
+    difference = b + c.inverted
+    c_larger = difference.negative
+    return difference, choose(c_larger, b, c), choose(c_larger, c, b)
 
 
-def excess(pipeline: Pipeline, a: Word, b: Word, one: int) -> Word:
+def excess(a: Word, b: Word, one: int) -> Word:
     """``a + b - one``, where `a` is a membership."""
     bits = one.bit_length() - 1
-    less_one = wire(pipeline, lambda v: Cat(v[:bits], ~v[bits]).as_signed(), a, minimum=-one, maximum=0)
-    return pipeline.add(less_one, b)
+    less_one = wire(lambda v: Cat(v[:bits], ~v[bits]).as_signed(), a, minimum=-one, maximum=0)
+    return less_one + b

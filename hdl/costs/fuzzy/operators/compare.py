@@ -1,16 +1,15 @@
 """Which of two words is smaller, and by how much."""
 
-from softdepth.hdl.arithmetic.adders import magnitude
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
-from softdepth.hdl.arithmetic.wires import flag, inverted
+from softdepth.hdl.arithmetic.adders import distance
+from softdepth.hdl.arithmetic.word import Word
 
 
-def compare(pipeline: Pipeline, a: Word, b: Word) -> tuple[Word, Word]:
+def compare(a: Word, b: Word) -> tuple[Word, Word]:
     """Whether ``a <= b``, after one operation, and ``|a - b|``, after two.
 
     ``a - b - 1`` is negative where a is not larger.
     """
-    difference = pipeline.add(a, inverted(pipeline, b))
-    smaller = flag(pipeline, lambda v: v[-1], difference)
+    difference = a + b.inverted
+    smaller = difference.negative
     reach = max(a.maximum - b.minimum, b.maximum - a.minimum)
-    return smaller, magnitude(pipeline, difference, smaller, reach.bit_length(), reach)
+    return smaller, distance(difference, smaller, reach.bit_length(), reach)

@@ -1,6 +1,7 @@
 """MEAN (Bobyr et al. 2021, eq. 4, of three operands)."""
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.spec.config import Config
 
 
@@ -15,8 +16,8 @@ class Mean:
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``b + c``."""
-        return pipeline.add(b, c)
+        return b + c
 
     def fire(self, pipeline: Pipeline, a: Word, pair: Word) -> Word:
         """``a + pair``."""
-        return pipeline.add(a, pair)
+        return a + pair

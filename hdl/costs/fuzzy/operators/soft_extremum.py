@@ -1,8 +1,9 @@
 """Both soft minima in a cell (Bobyr et al. 2021, eqs. 5 and 6)."""
 
 from softdepth.hdl.arithmetic.adders import add_with_carry
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
-from softdepth.hdl.arithmetic.wires import choose, constant, flag, inverted, masked
+from softdepth.hdl.arithmetic.pipeline import Pipeline
+from softdepth.hdl.arithmetic.wires import choose
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.operators.cell import Corners, Position, complement, excess
 from softdepth.hdl.costs.fuzzy.operators.distance_table import DistanceTable
 from softdepth.spec.config import Config
@@ -36,43 +37,41 @@ class SoftExtremum:
     def corners(self, pipeline: Pipeline, b: Word, c: Word) -> Corners:
         """See `CellOperator`."""
         one, keeps = self._one, self._maximum
-        difference = pipeline.add(b, inverted(pipeline, c))  # less 1
-        sum_ = excess(pipeline, b, c, one)
-        same = self._table.lookup(pipeline, difference, less_1=True)
-        mixed = self._table.lookup(pipeline, sum_)
+        difference = b + c.inverted  # less 1
+        sum_ = excess(b, c, one)
+        same = self._table.of_distance(difference)
+        mixed = self._table.of_magnitude(sum_)
 
         # What is chosen goes straight into an addition: registers come before the choice.
-        difference, b, c = (pipeline.at(word, same.time) for word in (difference, b, c))
-        c_larger = flag(pipeline, lambda v: v[-1], difference)
-        smaller, larger = choose(pipeline, c_larger, b, c), choose(pipeline, c_larger, c, b)
-        p2 = pipeline.within(pipeline.add(larger if keeps else smaller, same), *self._pairs)
+        difference, b, c = (word.at(same.time) for word in (difference, b, c))
+        c_larger = difference.negative
+        smaller, larger = choose(c_larger, b, c), choose(c_larger, c, b)
+        p2 = ((larger if keeps else smaller) + same).within(*self._pairs)
         # one - b and one - c are c and b, less what b + c exceeds one by.
-        p0 = _less(pipeline, p2, sum_, *self._pairs)
-        short = flag(pipeline, lambda v: v[-1], sum_)
-        p1 = pipeline.add(larger, mixed)
-        sum_, short = pipeline.at(sum_, p1.time), pipeline.at(short, p1.time)
-        return p0, _less(pipeline, p1, masked(pipeline, sum_, short, keep=keeps), *self._pairs), p2
+        p0 = _less(p2, sum_, *self._pairs)
+        p1 = larger + mixed
+        sum_ = sum_.at(p1.time)
+        less = choose(sum_.negative, sum_, 0) if keeps else choose(sum_.negative, 0, sum_)
+        return p0, _less(p1, less, *self._pairs), p2
 
     def fire(self, pipeline: Pipeline, a: Position, pair: Word) -> tuple[Word, Word]:
         """See `CellOperator`."""
         one, keeps = self._one, self._maximum
-        difference = pipeline.add(a.outer, inverted(pipeline, pair))  # less 1
-        sum_ = excess(pipeline, a.outer, pair, one)
-        in_f = self._table.lookup(pipeline, difference, less_1=True)
-        in_g = self._table.lookup(pipeline, sum_)
+        difference = a.outer + pair.inverted  # less 1
+        sum_ = excess(a.outer, pair, one)
+        in_f = self._table.of_distance(difference)
+        in_g = self._table.of_magnitude(sum_)
 
         # A carry cell has room for a choice of a complement only where 0 chooses the other operand.
-        takes_middle = pipeline.at(flag(pipeline, lambda v: v[-1] == keeps, sum_), in_g.time)
-        outer, pair = pipeline.at(a.outer, in_f.time), pipeline.at(pair, in_f.time)
-        takes_pair = flag(pipeline, lambda v: v[-1] == keeps, pipeline.at(difference, in_f.time))
-        f = pipeline.add(choose(pipeline, takes_pair, pair, outer), in_f)
-        middle = complement(pipeline, outer, one)  # less 1
-        g = add_with_carry(
-            pipeline, choose(pipeline, takes_middle, middle, pair), in_g, takes_middle, *self._strengths
-        )
-        return pipeline.within(f, *self._strengths), g
+        takes_middle = (sum_.negative if keeps else ~sum_.negative).at(in_g.time)
+        outer, pair = a.outer.at(in_f.time), pair.at(in_f.time)
+        pair_larger = difference.at(in_f.time).negative
+        f = choose(pair_larger if keeps else ~pair_larger, pair, outer) + in_f
+        middle = complement(outer, one)  # less 1
+        g = add_with_carry(choose(takes_middle, middle, pair), in_g, takes_middle, *self._strengths)
+        return f.within(*self._strengths), g
 
 
-def _less(pipeline: Pipeline, a: Word, b: Word, minimum: int, maximum: int) -> Word:
+def _less(a: Word, b: Word, minimum: int, maximum: int) -> Word:
     """``a - b``, known to lie within a range."""
-    return add_with_carry(pipeline, a, inverted(pipeline, b), constant(1, a), minimum, maximum)
+    return add_with_carry(a, b.inverted, 1, minimum, maximum)

@@ -1,7 +1,8 @@
 """Soft-min II (Bobyr et al. 2021, eq. 6) of two operands, nested."""
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline, Word
+from softdepth.hdl.arithmetic.pipeline import Pipeline
 from softdepth.hdl.arithmetic.wires import choose
+from softdepth.hdl.arithmetic.word import Word
 from softdepth.hdl.costs.fuzzy.operators.compare import compare
 from softdepth.spec.config import Config
 from softdepth.spec.soft import soft_min_2_table
@@ -25,12 +26,12 @@ class SoftMin2:
 
     def pair(self, pipeline: Pipeline, b: Word, c: Word) -> Word:
         """``min(b, c) + h(|b - c|)`` or ``max(b, c) - h(|b - c|)``."""
-        first_smaller, distance = compare(pipeline, b, c)
+        first_smaller, distance = compare(b, c)
         correction = pipeline.lookup(self._table, distance)
         operands = (c, b) if self._soft_maximum else (b, c)
-        strength = pipeline.add(correction, choose(pipeline, first_smaller, *operands))
+        strength = correction + choose(first_smaller, *operands)
         # A weighted mean lies between its operands.
-        return pipeline.within(strength, min(b.minimum, c.minimum), max(b.maximum, c.maximum))
+        return strength.within(min(b.minimum, c.minimum), max(b.maximum, c.maximum))
 
     def fire(self, pipeline: Pipeline, a: Word, pair: Word) -> Word:
         """The same, of criterion 1's membership and a pair."""

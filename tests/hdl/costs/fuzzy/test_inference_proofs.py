@@ -82,7 +82,11 @@ def test_an_inference_is_its_table(name: str, tmp_path: Path) -> None:
 
 def test_an_inference_with_a_fault_is_refuted(tmp_path: Path) -> None:
     c = small(**INFERENCES["min"])
-    broken = mutated(CellInference, "one = constant(1, f_rise)", "one = constant(0, f_rise)")
+    broken = mutated(
+        CellInference,
+        "add_with_carry(f_rise, g_fall.inverted, 1,",
+        "add_with_carry(f_rise, g_fall.inverted, 0,",
+    )
     dut = broken(c, MAXIMA)
     assert pipeline_proof(Inferred(c, dut), tmp_path, dut.latency) == "refuted"
 

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pyslang
@@ -11,8 +12,10 @@ from pyslang.syntax import SyntaxTree
 
 from softdepth.export.core_file import export_core
 from softdepth.flow.tools import find_tool
+from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.verilog import TOP, to_verilog
 from softdepth.sim.toolchain import find_toolchain
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from tests.export.conftest import BUILT, SMALL, exported
 from tests.support.icarus import STANDARDS, needs_icarus
@@ -32,10 +35,23 @@ SLANG_WAIVED = {
 }
 
 
-@pytest.fixture(params=SMALL)
+AXI = {
+    "axi": (SMALL["sad"], AxiOptions(left=True)),
+    "axi-two": (SMALL["robust-small"], AxiOptions("wishbone", inputs="two", clocks="own")),
+}
+"""Cores with AXI streams: both buses, one clock or three, and every register."""
+
+
+@cache
+def verilog(name: str) -> str:
+    """One of `SMALL` or `AXI`, its module called `TOP`."""
+    return to_verilog(AxiCore(*AXI[name]), TOP) if name in AXI else exported(name).verilog
+
+
+@pytest.fixture(params=[*SMALL, *AXI])
 def core(request, tmp_path: Path) -> Path:
     path = tmp_path / "core.v"
-    path.write_text(exported(request.param).verilog)
+    path.write_text(verilog(request.param))
     return path
 
 
@@ -73,8 +89,8 @@ DEFAULTS = {"sad": (), "lite": SLOW, "paper": SLOW, "robust-small": SLOW, "compa
 def test_verilator_makes_cpp_of_default_cores(name: str, tmp_path: Path) -> None:
     """Wide memories of several blocks, and as many lanes as users begin with: small cores have neither."""
     config = Config.preset(name)
-    verilog = to_verilog(config) if config.whole_frame else export_core(config).verilog
-    (tmp_path / "core.v").write_text(verilog)
+    text = to_verilog(config) if config.whole_frame else export_core(config).verilog
+    (tmp_path / "core.v").write_text(text)
     assert "%" not in verilator(tmp_path, "--cc", "core.v")
 
 

@@ -27,7 +27,7 @@ def pair_layout(pixel: PixelFormat) -> data.StructLayout:
     ``left``, ``right`` hold gray, or red in the lowest bits, then green, then blue. ``sof`` marks a
     frame's first pixel, ``eol`` a line's last, ``eof`` a frame's last. A source without ``eof`` ties it to
     0: a frame then ends at the next ``sof``, until two whole frames in a row have taught the core their
-    height.
+    height, and in the silence behind its last line from then on.
     """
     return data.StructLayout(
         {"left": unsigned(pixel.size), "right": unsigned(pixel.size), "sof": 1, "eol": 1, "eof": 1}

@@ -1,11 +1,14 @@
 """Turns whatever markers arrive into frames that are whole."""
 
-from amaranth.hdl import Module, Mux, Signal, unsigned
+from amaranth.hdl import Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.front.columns import Columns
 from softdepth.hdl.front.fault_counters import FaultCounters
 from softdepth.hdl.front.height_learner import HeightLearner
+from softdepth.hdl.front.silence import Silence
+from softdepth.hdl.front.states import States
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
@@ -41,21 +44,23 @@ def item_layout(config: Config) -> data.StructLayout:
 
 
 class FrameGuard(wiring.Component):
-    """Turns whatever markers arrive into whole frames; sound frames pass without a cycle lost.
+    """Turns whatever markers arrive into whole frames; sound frames pass, and none of their pixels waits.
 
     A frame's first line gives its width. Short lines are filled up, long ones are cut, pixels outside any
     frame are dropped, and a start of frame before the end closes the running frame first. Each fault is
     counted in ``status``, and marks the frame as damaged from there on. The table of faults is in
-    docs/gateware.md; how the end of a frame is known without end marks, in `HeightLearner`.
+    docs/gateware.md; how the end of a frame is known without end marks, in `HeightLearner` and `Silence`.
 
     States
     ------
     OUTSIDE : no frame is open. IGNORE : the same, in a frame that is skipped.
     DROP : no frame is open, and pixels that belong to none have come.
     BETWEEN : a frame is open, and a line of it is complete. LINE : the line has begun.
+    LAST : a frame is open, and all the lines of it that there can be are complete.
     PAD : a short line is filled with its last pixel.
-    SKIP : the rest of a line that was cut is dropped. SKIP_LAST : the same, of a frame's last line.
+    SKIP : the rest of a line that was cut is dropped.
     END : a frame ended in what was cut, and has yet to be ended for the sequencer.
+    OVER : the same of a frame that ended where silence told.
 
     Members
     -------
@@ -86,6 +91,8 @@ class FrameGuard(wiring.Component):
         config = self._config
         pair, item = self.i.payload, self.o.payload
         m.submodules.learner = learner = HeightLearner(config)
+        m.submodules.silence = silence = Silence(config)
+        m.submodules.columns = columns = Columns(config)
         m.submodules.counters = counters = FaultCounters()
         m.d.comb += [
             self.status.eq(counters.status),
@@ -94,203 +101,141 @@ class FrameGuard(wiring.Component):
             learner.forget.eq(self.forget),
         ]
 
-        starts = Signal()
-        offers_start, offers_rest = (
-            Signal(),
-            Signal(),
-        )  # a pixel is offered, and it starts a frame, or does not
+        states = States(
+            m, "OUTSIDE", "IGNORE", "DROP", "BETWEEN", "LINE", "LAST", "PAD", "SKIP", "END", "OVER"
+        )
+        at = states.at
+        closed = states.group("OUTSIDE", "IGNORE", "DROP")  # no frame is open
+        goes_on = states.group("BETWEEN", "LINE")  # the pixel that follows belongs to the frame
+        unwanted = states.group("OUTSIDE", "IGNORE", "DROP", "SKIP")  # it is dropped
+        ended_by_start = states.group("BETWEEN", "LAST", "SKIP")  # unless it starts one, which ends the frame
+        ending = states.group("END", "OVER")
+        own = states.group("PAD", "END", "OVER")  # what leaves is not what is offered
+
+        starts, rest = Signal(), Signal()  # a pixel is offered, and it starts a frame, or does not
         eol = Signal()
+        begins = Signal()  # a frame may begin
         m.d.comb += [
-            starts.eq(pair.sof),
-            offers_start.eq(self.i.valid & starts),
-            offers_rest.eq(self.i.valid & ~starts),
+            starts.eq(self.i.valid & pair.sof),
+            rest.eq(self.i.valid & ~pair.sof),
             eol.eq(pair.eol | pair.eof),
+            begins.eq(starts & closed & ~self.skip & ~self.hold),
         ]
 
-        # What a state decides. At most one of them is set.
+        # What is done in this clock: at most one of them.
         passes = Signal()  # the pixel that is offered leaves
         drops = Signal()  # it is dropped
-        fills = Signal()  # the line's last pixel leaves once more
+        fills = at["PAD"]  # the line's last pixel leaves once more
         ends = Signal()  # a bare end leaves
-        taken = Signal()  # an item leaves
+        may_leave = self.o.ready
         m.d.comb += [
+            passes.eq((rest & goes_on) | begins),
+            drops.eq((rest & unwanted) | (starts & closed & self.skip)),
+            ends.eq((starts & ended_by_start) | (rest & at["LAST"]) | ending),
             self.o.valid.eq(passes | fills | ends),
-            self.i.ready.eq((passes & self.o.ready) | drops),
-            taken.eq(self.o.valid & self.o.ready),
-            counters.again.eq(self.o.valid & ~self.o.ready),
+            self.i.ready.eq((passes & may_leave) | drops),
+            counters.again.eq(self.o.valid & ~may_leave),
         ]
 
-        # The column of the next pixel. The rest is known a pixel ahead: a line has more than one.
-        x = Signal(range(config.max_width))
-        may_end = Signal()  # the line is wide enough to end there
-        must_end = Signal()  # and cannot be any wider
-        first_line = Signal()  # the frame's first line has begun, and no other
-        previous = Signal.like(x, reset_less=True)  # the column before it
-        second_last = Signal.like(x, init=config.max_width - 2)  # of the frame's lines
-        support = config.reach_left + config.reach_right
-        completes, inner, first_inner = Signal(), Signal(), Signal()
-
-        short, cut, line_ends, frame_ends = Signal(), Signal(), Signal(), Signal()
+        # What becomes of a pixel that passes: it ends its line, or is the last before it is filled or cut.
+        short, cut, line_ends = Signal(), Signal(), Signal()
         end_waits = Signal(reset_less=True)  # the line that is filled bore its frame's end
         m.d.comb += [
-            short.eq(passes & eol & ~may_end),
-            cut.eq(passes & must_end & ~eol),
-            line_ends.eq(may_end & (fills | must_end | eol)),
-            frame_ends.eq(Mux(fills, end_waits, pair.eof) | learner.is_last),
+            short.eq(passes & eol & ~columns.may_end),
+            cut.eq(passes & ~eol & columns.must_end),
+            line_ends.eq(columns.may_end & (fills | eol | columns.must_end)),
+            columns.steps.eq((passes | fills) & may_leave),
+            columns.starts.eq(begins),
+            columns.line_ends.eq(line_ends),
         ]
-        with m.If(taken & ~ends):
-            m.d.sync += [
-                x.eq(x + 1),
-                previous.eq(x),
-                completes.eq(x == config.reach_right - 1),
-                first_inner.eq(x == support - 1),
-            ]
-            with m.If(x == support - 1):
-                m.d.sync += inner.eq(1)
-            with m.If(first_line):
-                m.d.sync += [
-                    second_last.eq(previous),
-                    must_end.eq(x == config.max_width - 2),
-                ]
-                with m.If(x == config.min_width - 2):
-                    m.d.sync += may_end.eq(1)
+
+        def follow(line: Value, frame: Value) -> None:
+            """Where a line goes that ends here, and bears its frame's end."""
+            with m.If(line & frame):
+                states.go("OUTSIDE")
+            with m.If(line & ~frame & learner.is_last):
+                states.go("LAST")
+            with m.If(line & ~frame & ~learner.is_last):
+                states.go("BETWEEN")
+
+        with m.If(passes & may_leave):
+            follow(eol & columns.may_end, pair.eof)
+            with m.If(eol & ~columns.may_end):
+                states.go("PAD")
+            with m.If(~eol & columns.must_end):
+                states.go("SKIP")
+            with m.If(~eol & ~columns.must_end):
+                states.go("LINE")
+        with m.If(starts & closed & self.skip):
+            states.go("IGNORE")
+        with states.state("OUTSIDE"), m.If(rest):
+            m.d.comb += counters.missing_starts.eq(1)
+            states.go("DROP")
+        with states.state("LINE"), m.If(starts):
+            states.go("PAD")
+        with states.state("PAD"), m.If(may_leave):
+            follow(columns.may_end, end_waits)
+        with states.state("SKIP"), m.If(rest & eol):
+            with m.If(pair.eof):
+                states.go("END")
+            with m.Elif(learner.is_last):
+                states.go("LAST")
             with m.Else():
-                is_second_last = x == second_last
-                m.d.sync += [may_end.eq(is_second_last), must_end.eq(is_second_last)]
-            with m.If(passes & starts):
-                m.d.sync += first_line.eq(1)
-            with m.If(line_ends):
-                m.d.sync += [
-                    each.eq(0) for each in (x, may_end, must_end, first_line, completes, inner, first_inner)
-                ]
+                states.go("BETWEEN")
+        with m.If(ends & may_leave):
+            states.go("OUTSIDE")
+        m.d.comb += silence.waits.eq((at["BETWEEN"] | at["LAST"]) & learner.may_end)
+        with m.If((at["BETWEEN"] | at["LAST"]) & silence.over & ~self.i.valid):
+            states.go("OVER")
 
-        damaged = Signal()  # this frame, by what came before
-        found = Signal()  # another fault, in this clock
-        closes = Signal()  # the frame ends with what leaves
-        m.d.comb += closes.eq(ends | (line_ends & frame_ends))
-        with m.If(taken):
-            m.d.sync += damaged.eq(item.damaged & ~closes)
+        # A start after a whole line is how frames end where there is no other way to know it.
+        early = Signal()
+        found = Signal()  # a fault in what leaves, other than of its line
+        m.d.comb += [
+            early.eq(starts & (at["BETWEEN"] | at["LAST"]) & learner.is_early),
+            found.eq(fills | at["END"] | (rest & at["LAST"]) | early),
+            counters.early_starts.eq(early | (starts & (at["LINE"] | at["SKIP"]))),
+            counters.short_lines.eq(short | (starts & at["LINE"])),
+            counters.long_lines.eq(cut),
+        ]
 
-        with m.FSM(name="frame") as frame:
-
-            def pass_on() -> None:
-                """The pixel leaves, and the next belongs to the same line or lies behind it."""
-                m.d.comb += passes.eq(1)
-                m.d.comb += [counters.short_lines.eq(short), counters.long_lines.eq(cut)]
-                with m.If(taken):
-                    with m.If(short):
-                        m.next = "PAD"
-                    with m.Elif(~line_ends):
-                        m.next = "LINE"
-                    with m.Elif(frame_ends):
-                        m.next = "OUTSIDE"
-                        with m.If(cut):
-                            m.next = "SKIP_LAST"
-                    with m.Else():
-                        m.next = "BETWEEN"
-                        with m.If(cut):
-                            m.next = "SKIP"
-
-            def begin() -> None:
-                """A frame begins, unless it has to wait or is skipped."""
-                with m.If(offers_start & self.skip):
-                    m.d.comb += drops.eq(1)
-                    m.next = "IGNORE"
-                with m.Elif(offers_start & ~self.hold):
-                    pass_on()
-
-            with m.State("OUTSIDE"):
-                begin()
-                with m.If(offers_rest):
-                    m.d.comb += [drops.eq(1), counters.missing_starts.eq(1)]
-                    m.next = "DROP"
-            with m.State("IGNORE"):
-                begin()
-                with m.If(offers_rest):
-                    m.d.comb += drops.eq(1)
-            with m.State("DROP"):
-                begin()
-                with m.If(offers_rest):
-                    m.d.comb += drops.eq(1)
-            with m.State("SKIP_LAST"):
-                begin()
-                with m.If(offers_rest):
-                    m.d.comb += drops.eq(1)
-                    with m.If(eol):
-                        m.next = "OUTSIDE"
-            with m.State("BETWEEN"):
-                with m.If(offers_start):
-                    # Without another way to know it, this is how frames end.
-                    m.d.comb += [ends.eq(1), found.eq(learner.knows_end)]
-                with m.If(offers_rest & learner.is_lowest):
-                    m.d.comb += [ends.eq(1), found.eq(1)]
-                with m.If(offers_rest & ~learner.is_lowest):
-                    pass_on()
-                m.d.comb += counters.early_starts.eq(offers_start & learner.knows_end)
-                with m.If(ends & taken):
-                    m.d.comb += learner.whole.eq(starts & ~damaged)
-                    m.next = "OUTSIDE"
-            with m.State("LINE"):
-                with m.If(offers_start):
-                    m.d.comb += [counters.early_starts.eq(1), counters.short_lines.eq(1)]
-                    m.next = "PAD"
-                with m.If(offers_rest):
-                    pass_on()
-            with m.State("PAD"):
-                m.d.comb += [fills.eq(1), found.eq(1)]
-                with m.If(taken & line_ends):
-                    m.next = "BETWEEN"
-                    with m.If(frame_ends):
-                        m.next = "OUTSIDE"
-            with m.State("SKIP"):
-                with m.If(offers_start):
-                    m.d.comb += [ends.eq(1), counters.early_starts.eq(1)]
-                    with m.If(taken):
-                        m.next = "OUTSIDE"
-                with m.If(offers_rest):
-                    m.d.comb += drops.eq(1)
-                    with m.If(eol):
-                        m.next = "BETWEEN"
-                        with m.If(pair.eof):
-                            m.next = "END"
-            with m.State("END"):
-                m.d.comb += [ends.eq(1), found.eq(1)]
-                with m.If(taken):
-                    m.next = "OUTSIDE"
+        # Damage is known a clock after it left, and forgotten a clock after its frame's end did.
+        hurt, damaged = Signal(), Signal()
+        so_far = Signal()  # this frame is damaged, by what came before
+        m.d.comb += so_far.eq((damaged | hurt) & ~closed)
+        m.d.sync += [hurt.eq(self.o.valid & may_leave & (found | short | cut)), damaged.eq(so_far)]
 
         # A line's last pixel, to fill it with. Whatever is offered is kept, as one of the line follows before
         # it is filled: these registers lie far from the others, so that little may decide. The source may
         # offer nothing meanwhile, or what it likes: the item does not show it.
-        own = Signal()
-        m.d.comb += own.eq(frame.ongoing("PAD") | frame.ongoing("END"))
         kept = {
             side: Signal(config.pixel.size, name=f"kept_{side}", reset_less=True)
             for side in ("left", "right")
         }
-        within_line = frame.ongoing("LINE")
-        with m.If(self.i.valid & ~own & ~(within_line & starts)):
+        with m.If(self.i.valid & ~own & ~(at["LINE"] & pair.sof)):
             m.d.sync += [kept[side].eq(pair[side]) for side in kept]
-        with m.If(~frame.ongoing("PAD")):
-            m.d.sync += end_waits.eq(pair.eof | (within_line & starts))
+        with m.If(~fills):
+            m.d.sync += end_waits.eq(pair.eof | (at["LINE"] & pair.sof))
 
         # Where nothing reaches to the right, a line's first pixel completes itself, but not the frame's.
-        at_once = passes & ~starts & ~within_line
+        first = passes & ~at["LINE"]
         m.d.comb += [
             item.left.eq(Mux(own, kept["left"], pair.left)),
             item.right.eq(Mux(own, kept["right"], pair.right)),
-            item.x.eq(x),
-            item.sof.eq(passes & starts),
+            item.x.eq(columns.x),
+            item.sof.eq(begins),
             item.eol.eq(line_ends),
-            item.eof.eq(line_ends & frame_ends),
+            item.eof.eq(line_ends & Mux(fills, end_waits, pair.eof)),
             item.end.eq(ends),
-            item.damaged.eq(damaged | found | short | cut),
-            item.first.eq(passes & ~within_line),
-            item.completes.eq(completes if config.reach_right else at_once),
-            item.first_inner.eq(first_inner),
-            item.inner.eq(inner),
-            learner.frame.eq(taken & passes & starts),
-            learner.line.eq(taken & passes & ~within_line),
-            learner.dropped.eq((frame.ongoing("OUTSIDE") | frame.ongoing("DROP")) & offers_rest & eol),
+            item.damaged.eq(so_far | found | short | cut),
+            item.first.eq(first),
+            item.completes.eq(columns.completes if config.reach_right else first & ~pair.sof),
+            item.first_inner.eq(columns.first_inner),
+            item.inner.eq(columns.inner),
+            learner.frame.eq(begins & may_leave),
+            learner.line.eq(first & may_leave),
+            learner.whole.eq(ends & may_leave & (starts | at["OVER"]) & ~so_far),
+            learner.dropped.eq((at["OUTSIDE"] | at["DROP"]) & rest & eol),
             learner.mark.eq(self.i.valid & self.i.ready & pair.eof),
         ]
         return m

@@ -14,11 +14,12 @@ class HeightLearner(wiring.Component):
     """Counts a frame's lines and knows where the frame ends, whether or not the source marks it.
 
     It begins ``UNKNOWN``, and nothing but frames that are whole can change that. Two of them in a row that
-    are equally high and bear no end mark make the source one of known ``HEIGHT``: its frames end with
-    their last line. An end mark, wherever it stands, makes it one that ``MARKS`` its
-    ends, until reset, or `forget`.
+    are equally high and bear no end mark make the source one that is supposed to have a ``HEIGHT``: a
+    silence after its last line ends a frame. Where the next line follows, the frame is taller, and nothing
+    is known any more. A third frame confirms the height: from then on lines that follow are a fault. An end
+    mark, wherever it stands, makes the source one that ``MARKS`` its ends, until reset, or `forget`.
 
-    A known height changes when three whole frames in a row agree on a lower one. It is forgotten when
+    A height changes when three whole frames in a row agree on a lower one. A confirmed one is forgotten when
     lines follow its last, which a taller frame has and which are lost. Whole multiples of the height are
     forgiven once: starts of frame that went missing look the same.
 
@@ -26,19 +27,21 @@ class HeightLearner(wiring.Component):
     -------
     frame : a frame's first pixel is taken in this clock.
     line : a line's first pixel is taken, of a frame's first line too.
-    whole : a frame without fault has ended by the next frame's start, which is taken later.
+    whole : a frame without fault has ended by silence, or by the next frame's start, which is taken later.
     dropped : a line has ended that belongs to no frame.
     mark : an end mark is taken, wherever it stands.
     forget : no frame is open, and what was learnt is void: as after reset.
-    is_last : the running line is the last of the known height, `REPORT_CLOCKS` after it began.
-    is_lowest : the running line is the last that ``max_height`` allows, as soon.
-    knows_end : frames of this source end by marks or by height, and not by the next frame's start.
+    is_last : no line can follow the running one, by a confirmed height or ``max_height``.
+    may_end : silence after the running line ends the frame.
+    is_early : the next frame's start after the running line would come too early.
+
+    What is said of a line is true `REPORT_CLOCKS` after it began.
     """
 
     def __init__(self, config: Config) -> None:
         self._config = config
         inputs = ("frame", "line", "whole", "dropped", "mark", "forget")
-        outputs = ("is_last", "is_lowest", "knows_end")
+        outputs = ("is_last", "may_end", "is_early")
         super().__init__({**{name: In(1) for name in inputs}, **{name: Out(1) for name in outputs}})
 
     def elaborate(self, platform: object) -> Module:
@@ -69,21 +72,22 @@ class HeightLearner(wiring.Component):
         m.d.sync += is_same.eq(row == seen)
         m.d.comb += agrees.eq((streak != 0) & is_same)
         was_whole = Signal()
+        overran = Signal()  # lines followed this frame's last
         with m.If(whole):
             m.d.sync += [seen.eq(row), streak.eq(Mux(agrees, 2, 1)), was_whole.eq(1)]
         with m.If(frame):
             m.d.sync += was_whole.eq(0)
-            with m.If(~was_whole):
+            with m.If(~was_whole | overran):
                 m.d.sync += streak.eq(0)
 
-        overran = Signal()  # lines followed this frame's last
         overran_before = Signal()
+        confirmed = Signal()  # by a third frame: lines that follow are a fault
         with m.If(self.forget):
             m.d.sync += [streak.eq(0), was_whole.eq(0), overran.eq(0), overran_before.eq(0)]
         with m.FSM(name="ends") as ends:
             with m.State("UNKNOWN"):
                 with m.If(whole & agrees):
-                    m.d.sync += last.eq(row)
+                    m.d.sync += [last.eq(row), confirmed.eq(0)]
                     m.next = "HEIGHT"
                 with m.If(mark):
                     m.next = "MARKS"
@@ -92,7 +96,9 @@ class HeightLearner(wiring.Component):
                     # Counted modulo the height, so that the rows of whole frames end at the last.
                     m.d.sync += [row.eq(Mux(at_last, 0, row + 1)), overran.eq(1)]
                 with m.If(whole & agrees & (streak == 2)):
-                    m.d.sync += last.eq(row)
+                    m.d.sync += [last.eq(row), confirmed.eq(1)]
+                with m.If(line & ~frame & at_last):
+                    m.next = "UNKNOWN"
                 with m.If(frame):
                     m.d.sync += [overran.eq(0), overran_before.eq(overran)]
                     with m.If(overran & (overran_before | ~at_last)):
@@ -104,11 +110,11 @@ class HeightLearner(wiring.Component):
                     m.next = "UNKNOWN"
             with m.State("MARKS"), m.If(self.forget):
                 m.next = "UNKNOWN"
-            m.d.comb += self.knows_end.eq(~ends.ongoing("UNKNOWN"))
-            knows_height = ends.ongoing("HEIGHT")
-
+        knows_height, marks = ends.ongoing("HEIGHT"), ends.ongoing("MARKS")
+        is_lowest = row == self._config.max_height - 1
         m.d.sync += [
-            self.is_last.eq(knows_height & at_last),
-            self.is_lowest.eq(row == self._config.max_height - 1),
+            self.is_last.eq((knows_height & at_last & confirmed) | is_lowest),
+            self.may_end.eq((knows_height & at_last) | (~marks & is_lowest)),
+            self.is_early.eq(marks | (knows_height & ~at_last)),
         ]
         return m

@@ -8,8 +8,8 @@ from amaranth.lib.wiring import In, Out
 class ItemQueue(wiring.Component):
     """Two places, so that neither side's logic reaches through to the other: one item a clock.
 
-    Items go to the places in turn. An empty place takes whatever is offered, so that no logic but its own
-    bit decides over its many registers, which may lie far away.
+    Items go to the places in turn. An empty place takes whatever is offered, so that registers alone decide
+    over its many bits, which may lie far away; ``i.ready`` and ``o.valid`` are registers too.
 
     Parameters
     ----------
@@ -31,18 +31,23 @@ class ItemQueue(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(self.places))
-        holds = Array(Signal(name=f"holds_{k}") for k in range(self.places))
-        newest, oldest = Signal(), Signal()  # the place that is filled next, and the one that is emptied next
+        oldest = Signal()  # the place that is emptied next
+        holding, full = Signal(), Signal()  # one place at least holds an item, and both do
+        comes, goes = Signal(), Signal()
         m.d.comb += [
-            self.i.ready.eq(~holds[newest]),
-            self.o.valid.eq(holds[oldest]),
+            comes.eq(self.i.valid & self.i.ready),
+            goes.eq(self.o.valid & self.o.ready),
+            self.i.ready.eq(~full),
+            self.o.valid.eq(holding),
             self.o.payload.eq(places[oldest]),
         ]
-        for place, held in zip(places, holds, strict=True):
-            with m.If(~held):
+        for number, place in enumerate(places):
+            with m.If(~full & ~(holding & (oldest == number))):
                 m.d.sync += place.eq(self.i.payload)
-        with m.If(self.i.valid & self.i.ready):
-            m.d.sync += [holds[newest].eq(1), newest.eq(~newest)]
-        with m.If(self.o.valid & self.o.ready):
-            m.d.sync += [holds[oldest].eq(0), oldest.eq(~oldest)]
+        m.d.sync += [
+            holding.eq(comes | full | (holding & ~goes)),
+            full.eq(~goes & (full | (comes & holding))),
+        ]
+        with m.If(goes):
+            m.d.sync += oldest.eq(~oldest)
         return m

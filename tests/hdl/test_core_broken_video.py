@@ -9,7 +9,7 @@ import pytest
 from softdepth.golden.fixed_model import disparity
 from softdepth.hdl.core import StereoCore
 from softdepth.spec.config import Config
-from tests.support.broken_video import broken_video
+from tests.support.broken_video import broken_video, pauses
 from tests.support.fault_table import Mended, mended
 from tests.support.frames import Frame
 from tests.support.mutations import FRAME_GUARD, HEIGHT_LEARNER, mutated_guard
@@ -59,7 +59,7 @@ def first_difference(c: Config, seeds: range) -> str:
             stream, _ = broken_video(seed, c)
             tables.append(mended(stream, c))
             sent = [pair(*map(packed, colours(p.value)), sof=p.sof, eol=p.eol, eof=p.eof) for p in stream]
-            yield Trial(sent, *((1.0, 1.0) if seed % 3 else (0.7, 0.7)))
+            yield Trial(sent, *((1.0, 1.0) if seed % 3 else (0.7, 0.7)), pauses=pauses(stream, c))
 
     def judge(number: int, outcome: Outcome) -> bool:
         frames, counters = tables[number]
@@ -94,9 +94,9 @@ def test_what_leaves_is_what_the_table_says(name: str) -> None:
     "mutation",
     [
         (HEIGHT_LEARNER, "m.If(whole & agrees):", "m.If(whole):"),
-        (FRAME_GUARD, "item.damaged & ~closes", "item.damaged & ~line_ends"),
+        (FRAME_GUARD, "damaged.eq(so_far)", "damaged.eq(0)"),
     ],
-    ids=["one frame teaches a height", "damage is forgotten with its line"],
+    ids=["one frame teaches a height", "damage is forgotten"],
 )
 def test_a_core_with_a_broken_guard_is_caught(
     mutation: tuple[str, str, str], monkeypatch: pytest.MonkeyPatch

@@ -2,10 +2,13 @@
 
 from random import Random
 
+from softdepth.hdl.front.silence import silent_clocks
 from softdepth.spec.config import Config
 from tests.support.fault_table import Sent
 
 Stream = list[Sent]
+SETTLING = 16
+"""Clocks in which a pixel that was taken has surely passed, and its line's end is known."""
 
 
 def good_frame(width: int, height: int, *, eof: bool) -> Stream:
@@ -90,13 +93,28 @@ def some_frames(random: Random, c: Config, usual: tuple[int, int], *, eof: bool)
     return frame
 
 
+def interrupted(random: Random, stream: Stream) -> Stream:
+    """The same with silences: most before lines, some anywhere."""
+    likely = random.choice((0, 0, 0, 0.05, 0.3))
+    behind_a_line = [False, *(pixel.eol or pixel.eof for pixel in stream[:-1])]
+    return [
+        pixel._replace(pause=random.random() < likely * (1 if begins else 0.1))
+        for pixel, begins in zip(stream, behind_a_line, strict=True)
+    ]
+
+
+def pauses(stream: Stream, c: Config) -> dict[int, int]:
+    """The clocks for which a core waits for each pixel that a silence precedes."""
+    return {number: silent_clocks(c) + SETTLING for number, pixel in enumerate(stream) if pixel.pause}
+
+
 def numbered(stream: Stream) -> Stream:
     """The same with pixels that are all different."""
     return [pixel._replace(value=number) for number, pixel in enumerate(stream, start=1)]
 
 
 def broken_video(seed: int, c: Config) -> tuple[Stream, int]:
-    """Broken frames, then good ones of one size; and the place of the first good one's start.
+    """Broken frames, some interrupted, then good ones of one size; and the place of the first.
 
     Sources of odd seeds mark no ends. Theirs are three good frames, and a first line that ends the last.
     """
@@ -110,4 +128,4 @@ def broken_video(seed: int, c: Config) -> tuple[Stream, int]:
         stream += some_frames(random, c, usual, eof=eof)
     good = good_frame(*usual, eof=eof)
     ending = good if eof else [*good * 3, *good[: usual[0]]]
-    return numbered([*stream, *ending]), len(stream)
+    return numbered([*interrupted(random, stream), *ending]), len(stream)

@@ -13,17 +13,18 @@ from tests.support.frames import Frame
 
 TO_LEARN = 2
 """Whole frames in a row that teach a height, where none is known."""
-TO_CHANGE = 3
-"""The same where another is."""
+TO_CONFIRM = 3
+"""The same where one is known already: to change it, or to be sure of it."""
 
 
 class Sent(NamedTuple):
-    """A pixel of the left view (the right one follows from it) and its markers."""
+    """A pixel of the left view (the right one follows from it), its markers, and if silence precedes it."""
 
     value: int
     sof: bool = False
     eol: bool = False
     eof: bool = False
+    pause: bool = False
 
 
 class Mended(NamedTuple):
@@ -39,24 +40,29 @@ class _Source:
 
     marks: bool = False
     height: int = 0
+    confirmed: bool = False
     run: list[int] = field(default_factory=list)
     overran: bool = False
 
     @property
-    def knows_end(self) -> bool:
-        return self.marks or self.height > 0
+    def confirmed_height(self) -> int:
+        return self.height if self.confirmed and not self.marks else 0
 
     def frame_over(self, whole_height: int | None, dropped_lines: int) -> None:
         """The next frame starts: the height of this one if it was whole, and the lines behind its end."""
         self.run = [*self.run, whole_height] if whole_height else []
         if self.marks:
             return
-        newest = self.run[-(TO_CHANGE if self.height else TO_LEARN) :]
-        if len(newest) == (TO_CHANGE if self.height else TO_LEARN) and len(set(newest)) == 1:
+        enough = TO_CONFIRM if self.height else TO_LEARN
+        newest = self.run[-enough:]
+        if len(newest) == enough and len(set(newest)) == 1:
+            self.confirmed = self.height > 0
             self.height = newest[0]
-        elif self.height and dropped_lines and (self.overran or dropped_lines % self.height):
-            self.height, self.overran = 0, False
-            return
+        if self.height and dropped_lines:
+            self.run = []
+            if self.overran or dropped_lines % self.height:
+                self.height, self.overran = 0, False
+                return
         self.overran = self.height > 0 and dropped_lines > 0
 
 
@@ -87,22 +93,27 @@ def _frame(
     count = 0
     end = ""
     lines = list(_lines(sent))
+    whole = False
     for number, line in enumerate(lines):
-        if number == c.max_height:  # "pixels after max_height lines"
+        may_end = number > 0 and not source.marks and number in (source.height, c.max_height)
+        if may_end and line[0].pause:  # "the same after a silence"
             end = "end"
+            whole = broken_at is None
+            break
+        if number == source.height and number and not source.marks and not source.confirmed:
+            source.height = 0  # "more lines than a height that is supposed"
+        if number == c.max_height or (number and number == source.confirmed_height):
+            end = "end"  # "more lines than max_height", or "than a height that is confirmed"
             broken_at = count if broken_at is None else broken_at
             break
         narrowest, widest = (len(pixels[0]),) * 2 if pixels else (c.min_width, c.max_width)
         torn = not (line[-1].eol or line[-1].eof)
         kept = [pixel.value for pixel in line[:widest]]
-        ends_by_height = number + 1 == source.height and not source.marks
         fault: int | None = None
         if len(kept) == widest and not (line[widest - 1].eol or line[widest - 1].eof):
             counters["long_lines"] += 1
             fault = widest - 1
-            if ends_by_height:
-                end = "eof"
-            elif torn and followed:  # "start in the dropped rest of a long line"
+            if torn and followed:  # "start in the dropped rest of a long line"
                 counters["early_starts"] += 1
                 end = "end"
             elif line[-1].eof:
@@ -118,7 +129,7 @@ def _frame(
                 counters["short_lines"] += 1
                 fault = len(kept) - 1
                 kept += kept[-1:] * (narrowest - len(kept))
-            if line[-1].eof or ends_by_height:
+            if line[-1].eof:
                 end = "eof"
         if fault is not None and broken_at is None:
             broken_at = count + fault
@@ -128,13 +139,15 @@ def _frame(
             break
     behind = lines[len(pixels) :]
     counters["missing_starts"] += bool(behind)
-    whole = False
+    height = len(pixels)
     if not end and followed:  # "start after a whole line"
         end = "end"
         whole = broken_at is None
-        if source.knows_end:
+        if source.marks or source.height > height:
             counters["early_starts"] += 1
             broken_at = count if broken_at is None else broken_at
+    elif not end and not torn and not source.marks and height in (source.height, c.max_height):
+        end = "end"  # "silence"
     items = count + (end == "end")
     damaged = [broken_at is not None and k >= broken_at for k in range(items)]
     dropped = sum(line[-1].eol or line[-1].eof for line in behind)

@@ -6,21 +6,22 @@ from importlib import resources
 from types import ModuleType
 from typing import Any
 
-FRAME_GUARD, HEIGHT_LEARNER = "frame_guard", "height_learner"
-GUARD_FILES = (HEIGHT_LEARNER, FRAME_GUARD)
+FRAME_GUARD, HEIGHT_LEARNER, COLUMNS = "frame_guard", "height_learner", "columns"
+PARTS = {HEIGHT_LEARNER: "HeightLearner", COLUMNS: "Columns"}
 
 
 def mutated_guard(file: str, old: str, new: str) -> type:
-    """FrameGuard with ``new`` in place of ``old`` in one of its two files."""
+    """FrameGuard with ``new`` in place of ``old`` in one of its files."""
     modules = {}
-    for name in GUARD_FILES:
+    for name in (*PARTS, FRAME_GUARD):
         text = resources.files("softdepth.hdl.front").joinpath(f"{name}.py").read_text()
         if name == file:
             assert old in text, f"'{old}' is no longer in {name}.py"
             text = text.replace(old, new)
         modules[name] = module = ModuleType(f"mutated_{name}")
         exec(compile(text, name, "exec"), module.__dict__)
-    modules[FRAME_GUARD].__dict__["HeightLearner"] = modules[HEIGHT_LEARNER].__dict__["HeightLearner"]
+    for name, part in PARTS.items():
+        modules[FRAME_GUARD].__dict__[part] = modules[name].__dict__[part]
     return modules[FRAME_GUARD].__dict__["FrameGuard"]
 
 

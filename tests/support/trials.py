@@ -1,6 +1,6 @@
 """Many short runs of one block, each from reset, in one simulation."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from random import Random
 from typing import Any, NamedTuple
 
@@ -12,11 +12,15 @@ from tests.support.simulation import simulate
 
 
 class Trial(NamedTuple):
-    """Packed inputs of one run, and the probabilities of offering and of taking in a clock."""
+    """Packed inputs of one run, and the probabilities of offering and of taking in a clock.
+
+    ``pauses``: clocks before the payload of a number is offered.
+    """
 
     payloads: list[int]
     i_rate: float = 1.0
     o_rate: float = 1.0
+    pauses: Mapping[int, int] = {}
 
 
 class Outcome(NamedTuple):
@@ -43,9 +47,12 @@ def run_trials(
         shown = False
         waiting: int | None = None
         given = []
-        quiet = 0
+        quiet = number = 0
+        pause = trial.pauses.get(number, 0)
         while quiet < patience:
-            shown = offered is not None and (shown or random.random() < trial.i_rate)
+            if pause:
+                pause, quiet = pause - 1, 0
+            shown = not pause and offered is not None and (shown or random.random() < trial.i_rate)
             ready = random.random() < trial.o_rate
             # A source may show anything while it offers nothing.
             ctx.set(i_payload, offered if shown else random.getrandbits(len(i_payload)))
@@ -57,6 +64,8 @@ def run_trials(
             quiet += 1
             if shown and i_ready:
                 offered, shown, quiet = next(pending, None), False, 0
+                number += 1
+                pause = trial.pauses.get(number, 0)
             if o_valid and ready:
                 given.append(layout.from_bits(o_bits))
                 quiet = 0

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from softdepth.hdl.front.frame_guard import FrameGuard
-from tests.support.broken_video import broken_video
+from tests.support.broken_video import broken_video, pauses
 from tests.support.fault_table import Mended, mended
 from tests.support.frames import frames, partner
-from tests.support.mutations import FRAME_GUARD, HEIGHT_LEARNER, mutated_guard
+from tests.support.mutations import COLUMNS, FRAME_GUARD, HEIGHT_LEARNER, mutated_guard
 from tests.support.simulation import config, pair, sad
 from tests.support.trials import Outcome, Trial, run_trials
 
@@ -24,8 +24,8 @@ RATES = ((1.0, 1.0), (1.0, 1.0), (0.6, 1.0), (1.0, 0.6), (0.6, 0.6))
 
 
 @cache
-def _expected(seed: int, name: str) -> tuple[list[int], Mended]:
-    """The packed input of a seed, and what the table says of it; the table's own promises are checked."""
+def _expected(seed: int, name: str) -> tuple[list[int], dict[int, int], Mended]:
+    """The packed input of a seed, its silences, and what the table says of it, whose promises are checked."""
     c = CONFIGS[name]
     stream, good_from = broken_video(seed, c)
     table = mended(stream, c)
@@ -38,7 +38,7 @@ def _expected(seed: int, name: str) -> tuple[list[int], Mended]:
         assert first.lines == [good[y * width : (y + 1) * width] for y in range(height)]
         assert first.end == ("eof" if stream[-1].eof else first.end)
     packed = [pair(p.value, partner(p.value), sof=p.sof, eol=p.eol, eof=p.eof) for p in stream]
-    return packed, table
+    return packed, pauses(stream, c), table
 
 
 def first_difference(dut: Any, name: str, seeds: range) -> str:
@@ -47,11 +47,12 @@ def first_difference(dut: Any, name: str, seeds: range) -> str:
 
     def trials() -> Iterator[Trial]:
         for seed in seeds:
-            yield Trial(_expected(seed, name)[0], *Random(seed).choice(RATES))
+            packed, silences, _ = _expected(seed, name)
+            yield Trial(packed, *Random(seed).choice(RATES), pauses=silences)
 
     def judge(number: int, outcome: Outcome) -> bool:
         seed = seeds[number]
-        expected = _expected(seed, name)[1]
+        expected = _expected(seed, name)[2]
         got = frames(outcome.payloads, CONFIGS[name])
         if (got, outcome.status) != (expected.frames, expected.counters):
             at = next(
@@ -84,6 +85,12 @@ MUTATIONS: dict[str, tuple[str, str, str]] = {
     "two lower frames do": (HEIGHT_LEARNER, "whole & agrees & (streak == 2)", "whole & agrees"),
     "heights need not agree": (HEIGHT_LEARNER, "(streak != 0) & is_same", "(streak != 0)"),
     "broken frames are passed over": (HEIGHT_LEARNER, "m.d.sync += streak.eq(0)", "pass"),
+    "two frames confirm a height": (HEIGHT_LEARNER, "confirmed.eq(0)", "confirmed.eq(1)"),
+    "no height is confirmed": (HEIGHT_LEARNER, "confirmed.eq(1)", "confirmed.eq(0)"),
+    "a taller frame is early": (HEIGHT_LEARNER, "m.If(line & ~frame & at_last):", "m.If(0):"),
+    "silence ends nothing": (HEIGHT_LEARNER, "(knows_height & at_last) | (~marks & is_lowest)", "0"),
+    "silence does not end the tallest": (HEIGHT_LEARNER, "(~marks & is_lowest)", "0"),
+    "silence ends what is marked": (HEIGHT_LEARNER, "(~marks & is_lowest)", "is_lowest"),
     "a height is never forgotten": (HEIGHT_LEARNER, "overran & (overran_before | ~at_last)", "overran & 0"),
     "a multiple is forgiven each time": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "~at_last"),
     "a multiple is never forgiven": (HEIGHT_LEARNER, "(overran_before | ~at_last)", "1"),
@@ -93,47 +100,41 @@ MUTATIONS: dict[str, tuple[str, str, str]] = {
         "row.eq(Mux(frame, 0, row + 1))",
         "row.eq(Mux(frame, 0, row + 1 - at_last))",
     ),
-    "one line too many fits": (HEIGHT_LEARNER, "max_height - 1)", "max_height)"),
+    "one line too many fits": (HEIGHT_LEARNER, "max_height - 1", "max_height"),
+    "no frame ends early": (HEIGHT_LEARNER, "marks | (knows_height & ~at_last)", "0"),
+    "lower frames are not early": (HEIGHT_LEARNER, "marks | (knows_height & ~at_last)", "marks"),
     "broken frames are whole": (
         FRAME_GUARD,
-        "learner.whole.eq(starts & ~damaged)",
-        "learner.whole.eq(starts)",
+        'ends & may_leave & (starts | at["OVER"]) & ~so_far',
+        'ends & may_leave & (starts | at["OVER"])',
     ),
-    "what is too tall is not marked": (
+    "what is too tall is not marked": (FRAME_GUARD, '(rest & at["LAST"]) | early', "early"),
+    "damage is forgotten with its line": (
         FRAME_GUARD,
-        "m.d.comb += [ends.eq(1), found.eq(1)]",
-        "m.d.comb += ends.eq(1)",
+        "damaged.eq(so_far)",
+        "damaged.eq(so_far & ~line_ends)",
     ),
-    "no frame ends early": (FRAME_GUARD, "found.eq(learner.knows_end)", "found.eq(0)"),
-    "damage is forgotten with its line": (FRAME_GUARD, "item.damaged & ~closes", "item.damaged & ~line_ends"),
-    "damage outlives its frame": (FRAME_GUARD, "item.damaged & ~closes", "item.damaged"),
-    "cut lines are not marked": (FRAME_GUARD, "damaged | found | short | cut", "damaged | found | short"),
-    "short lines are not marked": (FRAME_GUARD, "damaged | found | short | cut", "damaged | found | cut"),
-    "short lines are not counted": (
-        FRAME_GUARD,
-        "counters.short_lines.eq(short)",
-        "counters.short_lines.eq(0)",
-    ),
-    "what waits is counted each clock": (FRAME_GUARD, "counters.again.eq(self.o.valid & ~self.o.ready),", ""),
-    "each dropped line is counted": (FRAME_GUARD, 'm.next = "DROP"', "pass"),
-    "the rest of a last line counts": (FRAME_GUARD, 'm.next = "SKIP_LAST"', "pass"),
-    "an end in the rest is missed": (FRAME_GUARD, 'm.next = "END"', "pass"),
-    "starts in the rest do not count": (
-        FRAME_GUARD,
-        "[ends.eq(1), counters.early_starts.eq(1)]",
-        "ends.eq(1)",
-    ),
+    "damage outlives its frame": (FRAME_GUARD, "(damaged | hurt) & ~closed", "(damaged | hurt)"),
+    "damage is forgotten at once": (FRAME_GUARD, "damaged.eq(so_far)", "damaged.eq(0)"),
+    "damage comes late": (FRAME_GUARD, "(damaged | hurt) & ~closed", "damaged & ~closed"),
+    "cut lines are not marked": (FRAME_GUARD, "found | short | cut", "found | short"),
+    "short lines are not marked": (FRAME_GUARD, "found | short | cut", "found | cut"),
+    "short lines are not counted": (FRAME_GUARD, "short_lines.eq(short | ", "short_lines.eq("),
+    "what waits is counted each clock": (FRAME_GUARD, "counters.again.eq(self.o.valid & ~may_leave),", ""),
+    "each dropped line is counted": (FRAME_GUARD, 'states.go("DROP")', "pass"),
+    "an end in the rest is missed": (FRAME_GUARD, 'states.go("END")', 'states.go("BETWEEN")'),
+    "starts in the rest do not count": (FRAME_GUARD, '(at["LINE"] | at["SKIP"])', 'at["LINE"]'),
     "the end is lost in filling": (FRAME_GUARD, "Mux(fills, end_waits, pair.eof)", "pair.eof"),
-    "a start inside a line does not end it": (FRAME_GUARD, "pair.eof | (within_line & starts)", "pair.eof"),
-    "the next frame fills the line": (FRAME_GUARD, "~own & ~(within_line & starts)", "~own"),
-    "narrow frames stay narrow": (FRAME_GUARD, "config.min_width - 2", "config.min_width - 3"),
-    "the width is a column late": (
+    "a start inside a line does not end it": (
         FRAME_GUARD,
-        "second_last.eq(previous)",
-        "second_last.eq(x)",
+        'pair.eof | (at["LINE"] & pair.sof)',
+        "pair.eof",
     ),
+    "the next frame fills the line": (FRAME_GUARD, '~own & ~(at["LINE"] & pair.sof)', "~own"),
+    "narrow frames stay narrow": (COLUMNS, "config.min_width - 2", "config.min_width - 3"),
+    "the width is a column late": (COLUMNS, "second_last.eq(previous)", "second_last.eq(x)"),
     "the width outlives its frame": (
-        FRAME_GUARD,
+        COLUMNS,
         "m.d.sync += first_line.eq(1)",
         "m.d.sync += first_line.eq(second_last == config.max_width - 2)",
     ),

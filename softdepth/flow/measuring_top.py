@@ -20,29 +20,30 @@ class MeasuringTop(wiring.Component):
     serial_in : becomes the core's inputs, a bit a clock.
     load : take the core's outputs as they are; else shift them.
     serial_out : the outputs, a bit a clock.
+    inputs, outputs : the core's ports, in the order of the shift registers.
     """
 
     def __init__(self, config: Config) -> None:
         self._core = StereoCore(config)
         core = self._core
-        self._inputs = Cat(core.i.payload.as_value(), core.i.valid, core.o.ready)
-        self._outputs = Cat(core.o.payload.as_value(), core.o.valid, core.i.ready, core.status.as_value())
-        self.lut4 = len(self._outputs) - 1
-        self.flip_flops = len(self._inputs) + 2 * len(self._outputs)
+        self.inputs = Cat(core.i.payload.as_value(), core.i.valid, core.o.ready)
+        self.outputs = Cat(core.o.payload.as_value(), core.o.valid, core.i.ready, core.status.as_value())
+        self.lut4 = len(self.outputs) - 1
+        self.flip_flops = len(self.inputs) + 2 * len(self.outputs)
         super().__init__({"serial_in": In(1), "load": In(1), "serial_out": Out(1)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.core = self._core
-        feed = Signal(len(self._inputs), reset_less=True)
-        seen = Signal(len(self._outputs), reset_less=True)
-        out = Signal(len(self._outputs), reset_less=True)
+        feed = Signal(len(self.inputs), reset_less=True)
+        seen = Signal(len(self.outputs), reset_less=True)
+        out = Signal(len(self.outputs), reset_less=True)
         m.d.sync += [
             feed.eq(Cat(self.serial_in, feed)),
-            seen.eq(self._outputs),
+            seen.eq(self.outputs),
             out.eq(Cat(out[1:], 0)),
         ]
         with m.If(self.load):
             m.d.sync += out.eq(seen)
-        m.d.comb += [self._inputs.eq(feed), self.serial_out.eq(out[0])]
+        m.d.comb += [self.inputs.eq(feed), self.serial_out.eq(out[0])]
         return m

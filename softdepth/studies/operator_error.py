@@ -61,7 +61,7 @@ def operator_error(config: Config, reference: Reference = "at once") -> Operator
     one = config.one
     fixed, scale = pair_operator(config), one * REGISTRY[config.operator].scale
     formula = _nested(config) if reference == "nested" else _at_once(config)
-    levels = _levels(config)
+    levels = levels_of(config)
     b, c = np.meshgrid(levels, levels, indexing="ij")
     pairs = fixed(b, c)
     worst, inputs, absolute, squares = -1.0, (0, 0, 0), 0.0, 0.0
@@ -79,7 +79,7 @@ def operator_error(config: Config, reference: Reference = "at once") -> Operator
     return OperatorError(worst, inputs, float(absolute / count), float(np.sqrt(squares / count)), worst * one)
 
 
-def _levels(config: Config) -> NDArray[Any]:
+def levels_of(config: Config) -> NDArray[Any]:
     """0 .. one, as the fixed model's memberships come: made by it, in its type."""
     criterion = config.criteria[0]
     shift = criterion.label_bits - config.membership_bits

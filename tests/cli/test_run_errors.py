@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from softdepth.run import measure, report
+from softdepth.golden import fixed_model
+from softdepth.run import report
 
 SMALL = ("--disparities", 16, "--lanes", 4, "--engine", "fixed")
 
@@ -18,7 +19,7 @@ def out(tmp_path, monkeypatch):
     def reached(*_):
         pytest.fail("the long work started")
 
-    monkeypatch.setattr(measure, "_model", reached)
+    monkeypatch.setattr(fixed_model, "disparity", reached)
     return tmp_path / "new" / "out"
 
 

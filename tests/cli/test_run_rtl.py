@@ -3,11 +3,9 @@
 import json
 import re
 
-import numpy as np
 import pytest
 
-from softdepth.golden.maps import DisparityMap
-from softdepth.run import measure
+from tests.support.simulator import simulate_with_faults
 
 SMALL = ("--disparities", 4, "--lanes", 4, "--set", "max_width=64", "--preset", "lite")
 
@@ -31,17 +29,7 @@ def test_gateware_gives_the_result_and_is_compared(softdepth, files, tmp_path):
 
 
 def test_a_mismatch_is_shown_and_fails(softdepth, files, tmp_path, monkeypatch):
-    def simulate(pair, config, measurement):
-        from softdepth.golden import fixed_model
-
-        right = fixed_model.disparity(pair.left, pair.right, config)
-        wrong = right.disparity.copy()
-        wrong[7, 11] ^= 1
-        wrong[8, 9] ^= 2
-        measurement.maps["rtl"] = DisparityMap(wrong, right.code)
-        measurement.cycles_per_pixel = measurement.pixels_per_second = np.pi
-
-    monkeypatch.setattr(measure, "_simulate", simulate)
+    simulate_with_faults(monkeypatch, {(7, 11): 1, (8, 9): 2})
     outcome = softdepth("run", files.left, files.right, *SMALL, "-o", tmp_path / "out")
     assert outcome.code == 1
     assert "differ in 2 pixels" in outcome.err

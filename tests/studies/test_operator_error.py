@@ -67,7 +67,7 @@ def test_the_search_agrees_with_loops(operator, nested):
     chosen = config(operator, 3)
     theta = module.pair_operator(chosen)
     one, scale = chosen.one, chosen.one * (3 if operator == "mean" else 1)
-    levels = module._levels(chosen)
+    levels = module.levels_of(chosen)
     errors = {}
     for a, b, c in itertools.product(range(one + 1), repeat=3):
         strength = theta(levels[a : a + 1], theta(levels[b : b + 1], levels[c : c + 1])).item() / scale

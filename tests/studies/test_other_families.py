@@ -28,8 +28,8 @@ def runs(cache: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return CELLS[done[-1]]
 
     monkeypatch.setattr(other_families, "synthesised", synthesised)
-    monkeypatch.setattr(other_families, "to_shared_rtlil", lambda core: str(core._config.hash))
-    monkeypatch.setattr(other_families, "StereoCore", lambda config: type("Core", (), {"_config": config}))
+    monkeypatch.setattr(other_families, "to_shared_rtlil", lambda core: core.hash)
+    monkeypatch.setattr(other_families, "StereoCore", lambda config: config)
     return done
 
 

@@ -105,7 +105,7 @@ def test_the_measuring_top_reads_every_output_and_feeds_every_input():
     """Bits shifted in appear at the core's ports; the core's ports appear in what is shifted out."""
     config = Config.preset("sad").override(["disparities=4", "lanes=1", "max_width=16", "max_height=16"])
     top = MeasuringTop(config)
-    inputs, outputs = len(top._inputs), len(top._outputs)
+    inputs, outputs = len(top.inputs), len(top.outputs)
     assert top.flip_flops == inputs + 2 * outputs
     # Pixels without a start of frame: the core takes them, and counts that the start was missing.
     pattern = [int(k % 3 == 0 and k < 48) for k in range(inputs)]
@@ -115,10 +115,10 @@ def test_the_measuring_top_reads_every_output_and_feeds_every_input():
         for bit in reversed(pattern):
             ctx.set(top.serial_in, bit)
             await ctx.tick()
-        seen = ctx.get(top._inputs)
+        seen = ctx.get(top.inputs)
         assert [(seen >> k) & 1 for k in range(inputs)] == pattern
         await ctx.tick().repeat(20)
-        expected = ctx.get(top._outputs)
+        expected = ctx.get(top.outputs)
         await ctx.tick()
         ctx.set(top.load, 1)
         await ctx.tick()

@@ -78,7 +78,7 @@ def findings(document: Document) -> list[str]:
         f'The method "[11]" is not described. The nearest of the readings tried is off by'
         f" {s.prototype_mean_deviation:.2f} on average: it is **not reproduced**.",
         *_rule_lines(document),
-        _fastest(speed),
+        conclusion_4(speed),
     ]
     if s.rtl_cells:
         lines.append(
@@ -176,7 +176,7 @@ def _rule_lines(document: Document) -> list[str]:
     ]
 
 
-def _fastest(speeds: Speeds) -> str:
+def conclusion_4(speeds: Speeds) -> str:
     """Whether the paper's conclusion 4 holds."""
     verdicts = []
     for engine in ("float", "fixed"):

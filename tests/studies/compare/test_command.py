@@ -3,20 +3,18 @@
 import json
 import re
 
-import numpy as np
 import pytest
 
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.data.images import read_pair
 from softdepth.golden.data.truth import read_truth
-from softdepth.golden.maps import DisparityMap
-from softdepth.run import measure
 from softdepth.spec.config import Config
 from softdepth.studies.compare import comparison
 from softdepth.studies.compare.agreement import agreement
 from softdepth.studies.compare.comparison import FILES, Comparison, estimate
 from softdepth.studies.compare.sweep import formats
 from tests.studies.compare.conftest import point
+from tests.support.simulator import simulate_with_faults
 
 SMALL = ("--disparities", 16, "--lanes", 4)
 
@@ -90,14 +88,7 @@ def test_a_failure_leaves_the_earlier_comparison(softdepth, files, tmp_path, mon
 
 @pytest.mark.usefixtures("quick")
 def test_a_gateware_that_differs_fails(softdepth, files, tmp_path, monkeypatch):
-    def simulate(pair, config, measurement):
-        right = fixed_model.disparity(pair.left, pair.right, config)
-        wrong = right.disparity.copy()
-        wrong[9, 20] ^= 1
-        measurement.maps["rtl"] = DisparityMap(wrong, right.code)
-        measurement.cycles_per_pixel = measurement.pixels_per_second = np.pi
-
-    monkeypatch.setattr(measure, "_simulate", simulate)
+    simulate_with_faults(monkeypatch, {(9, 20): 1})
     outcome = softdepth("compare", files.left, files.right, *SMALL, "--engine", "rtl", "-o", tmp_path / "out")
     assert outcome.code == 1
     assert "y=9 x=20: expected" in outcome.err

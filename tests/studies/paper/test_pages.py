@@ -30,17 +30,17 @@ def speeds(**times: tuple[float, float]) -> Speeds:
 
 
 def test_conclusion_4_is_judged_by_the_figures():
-    holds = pages._fastest(speeds(mean=(2, 3), min=(4, 4)))
+    holds = pages.conclusion_4(speeds(mean=(2, 3), min=(4, 4)))
     assert "it holds in float; it holds in fixed" in holds
-    fails = pages._fastest(speeds(mean=(6, 3), prod=(4, 8)))
+    fails = pages.conclusion_4(speeds(mean=(6, 3), prod=(4, 8)))
     assert "not in float, where PROD is (1.50 times as fast); it holds in fixed" in fails
     assert "In gateware MIN, MEAN, Soft-min I, Soft-min II take the fewest clocks" in fails
-    tie = pages._fastest(speeds(mean=(6, 3), min=(5.9, 4)))
+    tie = pages.conclusion_4(speeds(mean=(6, 3), min=(5.9, 4)))
     assert "in float it is no slower than any, and no faster than MIN; it holds in fixed" in tie
     same = speeds(mean=(6, 3))
     for each in same.operators:
         each.clocks = 4
-    assert "all operators take the same clocks" in pages._fastest(same)
+    assert "all operators take the same clocks" in pages.conclusion_4(same)
 
 
 def test_luts_are_read_where_they_are(tmp_path):

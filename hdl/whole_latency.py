@@ -89,7 +89,7 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     front = Front.latency + FrameEnds.latency
     described = TallWindow.latency + descriptors_latency(plan(config).rows) + QUEUE_LATENCY
     judged = tree.latency + sequence.latency + steps
-    judged += Neighbours(config.lanes, steps, costs.layout).latency
+    judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
     checked = LeftRight.latency if post.check else ahead + plan(config).right * steps

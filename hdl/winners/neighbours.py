@@ -23,6 +23,7 @@ class Neighbours(wiring.Component):
     Parameters
     ----------
     cost : of a candidate, ``num / den``.
+    runner_up : it is wanted; else there is none.
 
     Members
     -------
@@ -38,8 +39,8 @@ class Neighbours(wiring.Component):
 
     costs_late = 2
 
-    def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
-        self._lanes, self._steps, self._cost = lanes, steps, cost
+    def __init__(self, lanes: int, steps: int, cost: data.StructLayout, *, runner_up: bool = True) -> None:
+        self._lanes, self._steps, self._cost, self._runner_up = lanes, steps, cost, runner_up
         self._tree = (lanes - 1).bit_length()
         self._joins = 0
         count = -(-lanes // 2)
@@ -47,8 +48,9 @@ class Neighbours(wiring.Component):
             count = -(-count // JOINED)
             self._joins += 1
         if is_fraction(cost):
-            self._least = LeastFraction(cost, lanes, steps)
-            self.latency = self.costs_late + max(self._least.latency, 1 + self._joins + 1)
+            self._least = LeastFraction(cost, lanes, steps) if runner_up else None
+            least = self._least.latency if self._least else 0
+            self.latency = self.costs_late + max(least, 1 + self._joins + 1)
         else:
             self.latency = self.costs_late + 1 + max(self._tree, self._joins) + 1
         super().__init__(
@@ -121,7 +123,10 @@ class Neighbours(wiring.Component):
             self.excluded[k] | chosen["below"][k] | chosen["winner"][k] | chosen["above"][k]
             for k in range(lanes)
         ]
+        if not self._runner_up:
+            return m
         if is_fraction(self._cost):
+            assert self._least
             m.submodules.least = least = self._least
             last = travelling(m, self.last, self.costs_late, "last")[-1]
             m.d.comb += [

@@ -22,7 +22,7 @@ class Number(wiring.Component):
     Parameters
     ----------
     cost : layout of a fraction.
-    low, high : the range, `Config.number_range`: ``low`` is not above 0, and their distance is all ones.
+    low, high : the range, `Config.number_range`, from the negative of a power of two to it, less 1.
 
     Members
     -------
@@ -31,14 +31,15 @@ class Number(wiring.Component):
     """
 
     def __init__(self, cost: data.StructLayout, low: int, high: int) -> None:
-        self._low, self._bits = low, (high - low).bit_length()
+        assert low == -high - 1
+        self._bits = (high - low).bit_length()
         self.latency = number_latency(low, high)
         super().__init__({"i": In(cost), "o": Out(unsigned(self._bits))})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         bits = self._bits
-        sum_of = (self.i.num << QUOTIENT_BITS) + self.i.den * -self._low
+        sum_of = (self.i.num << QUOTIENT_BITS) + (self.i.den << bits - 1)
         dividend = Signal(sum_of.shape(), reset_less=True)
         divisor = Signal(self.i.den.shape(), reset_less=True)
         m.d.sync += [dividend.eq(sum_of), divisor.eq(self.i.den)]

@@ -68,7 +68,8 @@ class RightWinner(wiring.Component):
                     m.d.sync += far.eq(ring[-1])
                 entering = far
             now = Signal(best, name=f"now_{lane}")
-            better = ~self.excluded[lane] & _less(self.costs[lane], before.cost)
+            better = Signal(name=f"better_{lane}")
+            m.d.comb += better.eq(~self.excluded[lane] & _less(self.costs[lane], before.cost))
             m.d.comb += [
                 Value.cast(now.cost).eq(Mux(better, Value.cast(self.costs[lane]), Value.cast(before.cost))),
                 now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),

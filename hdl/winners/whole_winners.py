@@ -67,7 +67,7 @@ class WholeWinners(wiring.Component):
         m.submodules.sequence = sequence = ArgminSequence(best, steps)
         found_time = tree.latency + sequence.latency
         again = found_time + steps  # from a step to when it is looked at again
-        m.submodules.neighbours = beside = Neighbours(lanes, steps, cost)
+        m.submodules.neighbours = beside = Neighbours(lanes, steps, cost, runner_up=post.confidence)
         # Clocks that it takes to make numbers of costs.
         numbers = number_latency(*config.number_range) if is_fraction(cost) else 0
         late = again + beside.latency + numbers

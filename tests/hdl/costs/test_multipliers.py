@@ -12,6 +12,8 @@ from softdepth.spec.config import MULTIPLIER_BITS, Config
 from softdepth.spec.errors import ConfigError
 from tests.support.simulation import config, sad
 
+MIXED = [{"kind": "census"}, {"kind": "gradient"}, {"window": 3, "source": "gradient"}]
+"""The support of a census takes one in each lane."""
 ROW = [sad(3, dx) for dx in (-1, 0, 1)]
 
 
@@ -42,11 +44,15 @@ def tiles(a: int, b: int) -> int:
         ({"operator": "soft_min_1", "disparities": 4, "lanes": 2}, 4),
         ({"operator": "soft_min_1", "disparities": 2, "lanes": 1, "softness": 0.5}, 2),
         ({"operator": "soft_min_2", "disparities": 4, "lanes": 2}, 4),
+        # Two lanes and steps: two comparisons, as many of the runner-up, and one a lane of the right winner.
+        ({"disparities": 4, "lanes": 2, "post": {"check": True}}, 2 * (2 + 2)),
+        ({"disparities": 4, "lanes": 2, "post": {"fraction_bits": 4, "confidence": True}}, 2 * (2 + 2)),
+        ({"disparities": 4, "lanes": 2, "post": {"check": True, "confidence": True}, "criteria": MIXED}, 14),
     ],
     ids=str,
 )
 def test_multipliers_are_those_of_the_core(keys: dict[str, Any], count: int) -> None:
-    c = config(criteria=ROW, **keys)
+    c = config(**{"criteria": ROW, **keys})
     found = multiplications(c)
     assert c.multipliers == sum(tiles(a, b) for a, b in found) == count
 

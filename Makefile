@@ -72,8 +72,9 @@ compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md
 	done
 	@$(BIN)/python -m softdepth.studies.compare.document out/compare
 
-savings: $(READY) ## what each saving of area buys a lane: docs/area.md
+savings: $(READY) ## what savings of area and kinds of cost come to in a lane: docs/area.md
 	@$(BIN)/python -m softdepth.studies.savings
+	@$(BIN)/python -m softdepth.studies.fuzzy_lanes
 
 lint: $(READY) ## style, likely bugs and formatting
 	@$(BIN)/ruff check $(SOURCES)

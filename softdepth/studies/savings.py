@@ -25,6 +25,7 @@ from softdepth.spec.config import OPERATORS, Config
 from softdepth.spec.errors import InputError
 from softdepth.spec.rules import Firing
 from softdepth.studies import markers
+from softdepth.studies.evaluate.lanes import CORE
 from softdepth.templates import render
 
 DOCUMENT = Path("docs/area.md")
@@ -33,7 +34,6 @@ ALL = FAMILIES["ecp5"].passes
 MOST_MULTIPLIERS = 9999
 """Only one lane is built, whatever a part could hold of them."""
 LANES = ("paper", "compact", "lite", "sad")
-CORE = ("disparities=64", "lanes=32", "max_width=1280")
 
 
 def _all_but(left_out: NetlistPass) -> tuple[NetlistPass, ...]:

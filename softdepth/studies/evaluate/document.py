@@ -4,6 +4,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from softdepth.studies.evaluate.lanes import LaneFigures
 from softdepth.studies.evaluate.score import Score, Sparsification, geometric_mean
 
 CLEAN = "clean"
@@ -40,6 +41,7 @@ class Evaluation(BaseModel):
     presets : our configurations, by name, complete.
     hashes : what names them.
     fuzzy : the names of those that were added to compare costs.
+    lanes : what a lane of these takes, of those that were measured.
     methods : every method's name and title, in the order of the tables.
     ways : the ways in which pairs were degraded, with ``clean`` first.
     """
@@ -48,6 +50,7 @@ class Evaluation(BaseModel):
     presets: dict[str, dict[str, Any]]
     hashes: dict[str, str]
     fuzzy: list[str]
+    lanes: dict[str, LaneFigures] = {}
     methods: dict[str, str]
     ways: list[str]
     scenes: list[SceneResult]

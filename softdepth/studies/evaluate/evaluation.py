@@ -11,7 +11,7 @@ from softdepth.files import result_folder, write_atomically
 from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 from softdepth.studies import markers
-from softdepth.studies.evaluate import pages, plots, tables, variants, work
+from softdepth.studies.evaluate import lanes, pages, plots, tables, variants, work
 from softdepth.studies.evaluate.degrade import WAYS
 from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.scenes import Scene
@@ -60,7 +60,7 @@ def evaluate(
     `degraded` adds the pairs of `degrade.WAYS`; `fuzzy` the configurations of `variants`, which are scored
     on clean pairs alone. Raises `InputError` for scenes that cannot be read or that a core cannot take.
     """
-    extra = {**variants.fuzzy_or_not(), **variants.paper_on_gradient()} if fuzzy else {}
+    extra = variants.compared() if fuzzy else {}
     everything = {**configs, **extra}
     ways = list(WAYS) if degraded else []
     shown = [*list(configs)[:PRESETS_SHOWN], *RIVALS_SHOWN]
@@ -70,6 +70,7 @@ def evaluate(
         presets={name: config.model_dump(mode="json") for name, config in everything.items()},
         hashes={name: config.hash for name, config in everything.items()},
         fuzzy=list(extra),
+        lanes=lanes.known(extra),
         methods=work.titles(everything),
         ways=[CLEAN, *ways],
         scenes=[one.result for one in done],

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from softdepth.studies.evaluate.degrade import WAYS
 from softdepth.studies.evaluate.document import CLEAN, Evaluation
+from softdepth.studies.evaluate.lanes import CORE
 
 RIVALS = {"hh": "HH", "sgbm": "SGBM"}
 """Whose errors ours are divided by."""
@@ -91,16 +92,26 @@ def by_way(evaluation: Evaluation) -> Table:
 
 def fuzzy(evaluation: Evaluation) -> Table:
     """The costs over the same criteria, and the paper's method on the gradient."""
-    rows = [["cost", *_FOUR, "error", "of HH's"]]
+    lanes = evaluation.lanes
+    rows = [["cost", *_FOUR, "error", "of HH's", *(("LUT4 a lane", "multipliers") if lanes else ())]]
     for method in evaluation.fuzzy:
         s = evaluation.score(method)
         values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
-        rows.append([method, *(f"{v:.2f}" for v in values), f"{evaluation.ratio(method, 'hh'):.3f}"])
+        taken = []
+        if lanes:
+            lane = lanes.get(method)
+            taken = [f"{lane.lut4:,}", f"{lane.multipliers:.1f}"] if lane else ["-", "-"]
+        rows.append([method, *(f"{v:.2f}" for v in values), f"{evaluation.ratio(method, 'hh'):.3f}", *taken])
     text = (
         "The sum of census, gradient over 5x5 and gradient over 9x9, and fuzzy inference over the same three"
         " (labels at 2^8, 2^8 and 2^9), all with the post-processing of `robust`. Below, the preset `paper`"
         " with invalid pixels filled, on colours as the paper has it and on the gradient (labels at 2^10)."
     )
+    if lanes:
+        text += (
+            f" *LUT4 a lane*: on ECP5 (`{'`, `'.join(CORE)}`), what compares and sums a candidate's pixels and"
+            " makes its cost of them, without the winners. *Multipliers*: the core's, divided by its lanes."
+        )
     return Table("Fuzzy or not", text, rows)
 
 

@@ -12,6 +12,11 @@ _CRITERIA = [
 _GRADIENT_NEST = [{"window": w, "source": "gradient", "label_bits": 10} for w in (3, 5, 7)]
 
 
+def compared() -> dict[str, Config]:
+    """All of them."""
+    return {**fuzzy_or_not(), **paper_on_gradient()}
+
+
 def fuzzy_or_not() -> dict[str, Config]:
     """By name: the sum, and fuzzy inference with each operator, of the same criteria and post-processing."""
     base = Config.preset("robust").model_dump(mode="json") | {"criteria": _CRITERIA, "max_multipliers": 9999}

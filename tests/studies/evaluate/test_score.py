@@ -1,14 +1,19 @@
 """Scores, their means over scenes, and sparsification, worked out by hand."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from softdepth.golden.data.truth import Truth
 from softdepth.studies.evaluate.document import Evaluation, SceneResult
+from softdepth.studies.evaluate.lanes import FIGURES, LaneFigures, core_of, known, to_json
 from softdepth.studies.evaluate.score import Score, by_confidence, geometric_mean, score, sparsification
+from softdepth.studies.evaluate.tables import fuzzy
+from softdepth.studies.evaluate.variants import compared
 
+ROOT = Path(__file__).resolve().parents[3]
 TRUTH = Truth(
     disparity=np.array([[10, 10, 10, 10, np.nan]], np.float32),
     gray=np.zeros((1, 5), np.float32),
@@ -82,3 +87,33 @@ def test_ratios_are_geometric_means_over_scenes():
     assert found.ratio("ours", "hh", group="a") == pytest.approx(0.5)
     assert found.score("ours").error == pytest.approx(20.5)
     assert geometric_mean([2, 8]) == pytest.approx(4)
+
+
+def test_a_lane_is_told_beside_its_accuracy():
+    found = evaluation([(1, 2)])
+    found.fuzzy, found.lanes = ["ours"], {"ours": LaneFigures(config="x", lut4=1234, ff=5, multipliers=2.25)}
+    head, row = fuzzy(found).rows
+    assert dict(zip(head, row, strict=True))["LUT4 a lane"] == "1,234"
+    assert row[-1] == "2.2"
+    found.lanes = {"another": found.lanes["ours"]}
+    assert fuzzy(found).rows[1][-2:] == ["-", "-"]
+    found.lanes = {}
+    assert "LUT4" not in " ".join(fuzzy(found).rows[0])
+
+
+def test_only_lanes_of_the_same_core_are_known(tmp_path):
+    configs = {name: config for name, config in compared().items() if name.startswith("fuzzy m")}
+    figures = {
+        name: LaneFigures(config=core_of(config).hash, lut4=1, ff=1, multipliers=1)
+        for name, config in configs.items()
+    }
+    (tmp_path / "lanes.json").write_bytes(to_json(figures))
+    assert known(configs, tmp_path / "lanes.json") == figures
+    changed = configs | {"fuzzy min": configs["fuzzy min"].override(["membership_bits=6"])}
+    assert list(known(changed, tmp_path / "lanes.json")) == ["fuzzy mean"]
+    assert known(configs, tmp_path / "none.json") == {}
+
+
+def test_the_lanes_of_the_project_are_those_that_are_compared():
+    """Renewed by ``python -m softdepth.studies.fuzzy_lanes``."""
+    assert known(compared(), ROOT / FIGURES).keys() == compared().keys()

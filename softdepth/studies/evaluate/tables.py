@@ -109,8 +109,9 @@ def fuzzy(evaluation: Evaluation) -> Table:
     )
     if lanes:
         text += (
-            f" *LUT4 a lane*: on ECP5 (`{'`, `'.join(CORE)}`), what compares and sums a candidate's pixels and"
-            " makes its cost of them, without the winners. *Multipliers*: the core's, divided by its lanes."
+            f" *LUT4 a lane*: on ECP5 (`{'`, `'.join(CORE)}`), what compares and sums a candidate's pixels"
+            " and makes its cost of them, without the winners. *Multipliers*: the core's, divided by its"
+            " lanes."
         )
     return Table("Fuzzy or not", text, rows)
 

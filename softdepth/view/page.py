@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import cv2
-import matplotlib
 import numpy as np
 import plotly.graph_objects as go
 import plotly.io
 from numpy.typing import NDArray
 from PIL import Image
 
+from softdepth.golden.score.pictures import colour
 from softdepth.metric.scene import Scene
 from softdepth.templates import render
 
@@ -90,9 +90,7 @@ def _colours(depth: np.ndarray, near: float, far: float) -> NDArray[np.uint8]:
     level = np.zeros(depth.shape)
     inverse = 1 / np.clip(depth[known], near, far)
     level[known] = (inverse - 1 / far) / (1 / near - 1 / far) if near else 0
-    picture = (matplotlib.colormaps["turbo"](level)[..., :3] * 255).round().astype(np.uint8)
-    picture[~known] = 0
-    return picture
+    return colour(level, known, 1.0)
 
 
 def _cloud(points: np.ndarray, colours: np.ndarray | None) -> str:

@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -163,3 +164,10 @@ def test_the_site_fails_for_what_is_wrong(project, tmp_path, fault):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode != 0) == bool(fault), done.stderr
     assert (tmp_path / "build" / "site" / "golden.html").exists() or fault
+
+
+def test_the_version_has_its_section_in_the_changelog(project):
+    version = tomllib.loads((project / "pyproject.toml").read_text())["project"]["version"]
+    text = (project / "CHANGELOG.md").read_text()
+    assert re.search(rf"(?m)^## \[{re.escape(version)}\] - \d{{4}}-\d\d-\d\d$", text)
+    assert text.index("## [Unreleased]") < text.index(f"## [{version}]")

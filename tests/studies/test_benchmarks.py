@@ -2,7 +2,10 @@
 
 from types import SimpleNamespace
 
+from softdepth.cli.bench import bench
 from softdepth.golden.data.synthetic import generate
+from softdepth.hdl.built import missing
+from softdepth.spec.config import PRESETS, Config
 from softdepth.studies import benchmarks
 
 
@@ -24,3 +27,18 @@ def test_the_page_holds_what_was_measured(monkeypatch):
     page = benchmarks.page(figures)
     assert "| 2 | 2.0 | 3.00 | 1.50 |" in page
     assert "| sad | 64 | 16 | 4.125 | 1,234 |" in page
+
+
+def test_every_preset_with_gateware_is_measured(monkeypatch, tmp_path):
+    asked = []
+
+    def measured(pair, rows, frames, presets):
+        asked.append((pair.name, rows, frames, presets))
+        return {}
+
+    monkeypatch.setattr(benchmarks, "measured", measured)
+    monkeypatch.setattr(benchmarks, "page", lambda figures: "page")
+    bench("motorcycle", 40, 3, tmp_path)
+    assert asked == [("motorcycle", 40, 3, [name for name in PRESETS if not missing(Config.preset(name))])]
+    assert {"paper", "compact", "lite", "sad", "robust", "robust-gray", "robust-small"} <= set(asked[0][3])
+    assert (tmp_path / "benchmarks.md").read_text() == "page"

@@ -1,5 +1,6 @@
 """The page: complete in itself, and what a browser shows of it."""
 
+import base64
 import re
 import shutil
 import subprocess
@@ -50,6 +51,16 @@ def test_without_image_or_confidence(scene):
 def test_a_scene_without_depth(scene):
     nothing = Scene(scene.geometry, np.full_like(scene.depth, np.nan), scene.filled, scene.image)
     assert "0 points" in page("x", nothing)
+
+
+def test_what_is_far_does_not_look_like_what_has_no_depth(scene):
+    text = page("x", scene)
+    pictures = re.findall(r"data:image/png;base64,([A-Za-z0-9+/=]+)", text)
+    shown = cv2.imdecode(np.frombuffer(base64.b64decode(pictures[1]), np.uint8), cv2.IMREAD_COLOR)
+    assert shown is not None
+    none, far = shown[5, 2].astype(int), shown[5, 60].astype(int)
+    assert none.max() < 40
+    assert far.max() > 150
 
 
 def test_many_points_are_thinned(scene, monkeypatch):

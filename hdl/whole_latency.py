@@ -10,6 +10,7 @@ from softdepth.hdl.front.descriptors import descriptors_latency, window_reach
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.tall_window import TallWindow
+from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.confidence import Confidence
@@ -37,6 +38,7 @@ class WholeLatency:
         where pixels come slowly and that result is a measurement.
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
+    ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
     masked : reach of the masked medians, which take as many slots more a line, and lines more a frame.
     """
 
@@ -46,6 +48,7 @@ class WholeLatency:
     right: int
     below: int
     drain: int
+    ahead: int
     masked: int
 
     @classmethod
@@ -66,6 +69,7 @@ class WholeLatency:
             right=reach.right,
             below=reach.below,
             drain=drain_of(config),
+            ahead=ahead,
             masked=post.masked_median,
         )
 
@@ -75,8 +79,9 @@ class WholeLatency:
         At most so many where candidates do not begin at 0, whose columns are dropped a clock each.
         """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
+        front = (width + 2 * self.ahead) * (height + self.ahead + self.below) * clocks_of(steps)
         medians = (width + self.masked) * (height + self.masked) * min(steps, 2)
-        return max(costs, medians)
+        return max(costs, front, medians)
 
 
 def _up_to_winners(config: Config, ahead: int) -> int:
@@ -87,21 +92,22 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     tree = ArgminTree(num, den, config.lanes)
     sequence = ArgminSequence(candidate_layout(num, den, config.disparities), steps)
     front = Front.latency + FrameEnds.latency
-    described = TallWindow.latency + descriptors_latency(plan(config).rows) + QUEUE_LATENCY
+    described = TallWindow.latency_of(clocks_of(steps)) + descriptors_latency(plan(config).rows)
+    described += QUEUE_LATENCY
     judged = tree.latency + sequence.latency + steps
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
-    checked = LeftRight.latency if post.check else ahead + plan(config).right * steps
+    checked = LeftRight.latency if post.check else ahead * clocks_of(steps) + plan(config).right * steps
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
 
 
 def _behind(config: Config) -> int:
     """Of the stages behind the winners: a window's last columns are its last one repeated."""
-    post = config.post
+    post, folds = config.post, clocks_of(config.steps)
 
     def window(columns: int, latency: int) -> int:
-        return columns + Window.latency + latency + QUEUE_LATENCY
+        return columns * folds + Window.latency_of(folds) + latency + QUEUE_LATENCY
 
     clocks = max(-config.min_disparity, 0)  # border results that follow
     if post.island:
@@ -115,5 +121,5 @@ def _behind(config: Config) -> int:
         clocks += stage.latency + QUEUE_LATENCY
         # A line's last results come in a row, as windows repeat its last column.
         in_a_row = ISLAND_REACH * bool(post.island) + MEDIAN_REACH * bool(post.median)
-        clocks += in_a_row * (stage.clocks - 1)
+        clocks += in_a_row * (stage.clocks - folds)
     return clocks

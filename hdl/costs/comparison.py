@@ -43,7 +43,9 @@ class Comparison:
     spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
     own_shift : bits by which the value is more than the sum.
     cap : the bound of the gradient that is its descriptor; None where that is the census.
-    new, old : rows above the newest of that which enters its sums and that which leaves them; by `plan`.
+    running : sums down the columns are kept, of which a row enters and one leaves.
+    lags : rows above the newest of those that are compared, ascending: of a running sum the one that enters
+        and the one that leaves, else all that are summed; by `plan`.
     """
 
     field: str
@@ -59,8 +61,8 @@ class Comparison:
     like: int = 0
     own_shift: int = 0
     cap: int | None = None
-    new: int = 0
-    old: int = 0
+    running: bool = True
+    lags: tuple[int, ...] = ()
 
     @property
     def column_maximum(self) -> int:
@@ -75,7 +77,7 @@ class Comparison:
     @property
     def column(self) -> tuple[Any, ...]:
         """What its columns are made of: criteria that agree in this share their sums."""
-        return self.field, self.new, self.old, self.block, self.parameters
+        return self.field, self.lags, self.running, self.block, self.parameters
 
     def differences(self) -> wiring.Component:
         """A block that compares two descriptors."""
@@ -100,6 +102,7 @@ def _census(criterion: Census, pixel: PixelFormat) -> Comparison:
         spacing=spacing,
         like=criterion.like,
         own_shift=RECIPROCAL_BITS - SUPPORT_SHIFT,  # a column alone counts as a mean of one
+        running=criterion.running_sums,
     )
 
 
@@ -110,10 +113,11 @@ def _gradient(criterion: Gradient, pixel: PixelFormat) -> Comparison:
         criterion.neutral,
         rows=criterion.rows,
         reach=criterion.columns // 2,
+        running=criterion.running_sums,
     )
 
 
-def _of_gradient(cap: int, truncation: int, neutral: int, **window: int) -> Comparison:
+def _of_gradient(cap: int, truncation: int, neutral: int, **window: Any) -> Comparison:
     shape = Shape.cast(range(-cap, cap + 1))
     return Comparison(
         field=f"gradient_{cap}",
@@ -146,6 +150,10 @@ COMPARISONS.register("gradient", _gradient)
 COMPARISONS.register("sad", _sad)
 
 
+FEW_COLUMNS = 5
+"""Along a row, so many columns are added anew: a sum that runs on takes two additions, and a memory."""
+
+
 @dataclass(frozen=True)
 class Plan:
     """All comparisons of a core, and how far they reach together."""
@@ -155,12 +163,17 @@ class Plan:
     right: int
     history: int
 
+    def row_runs(self, comparison: Comparison) -> bool:
+        """Whether a comparison's sum along the row takes a column in and leaves one out."""
+        columns = 2 * comparison.reach + 1
+        return not comparison.taps and columns > FEW_COLUMNS and self.right == comparison.ahead
+
     @property
     def rows(self) -> dict[str, tuple[int, ...]]:
         """Of each descriptor, how many rows above the newest it is wanted, ascending."""
         found: dict[str, set[int]] = {}
         for c in self.comparisons:
-            found.setdefault(c.field, set()).update((c.new, c.old))
+            found.setdefault(c.field, set()).update(c.lags)
         return {field: tuple(sorted(rows)) for field, rows in found.items()}
 
     @property
@@ -199,6 +212,12 @@ def plan(config: Config) -> Plan:
     """The comparisons of a configuration whose criteria are summed down columns."""
     stated = [COMPARISONS[c.kind](c, config.pixel) for c in config.criteria]
     below = max(c.rows // 2 for c in stated)
-    found = tuple(replace(c, new=below - c.rows // 2, old=below + c.rows // 2 + 1) for c in stated)
+    found = tuple(replace(c, lags=_lags(c, below)) for c in stated)
     right = max(MINIMUM_RIGHT, *(c.ahead for c in found))
-    return Plan(found, below, right, max(c.old for c in found))
+    return Plan(found, below, right, max(c.lags[-1] for c in found))
+
+
+def _lags(comparison: Comparison, below: int) -> tuple[int, ...]:
+    first = below - comparison.rows // 2
+    behind = first + comparison.rows
+    return (first, behind) if comparison.running else tuple(range(first, behind))

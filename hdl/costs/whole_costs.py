@@ -1,11 +1,12 @@
 """Descriptors in, the costs of all candidates out: the room of criteria that are summed down columns."""
 
-from amaranth.hdl import Const, Module, Signal, Value
+from amaranth.hdl import Cat, Const, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In
 
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.bundle import cost_ports
+from softdepth.hdl.costs.column_groups import join_columns
 from softdepth.hdl.costs.comparison import LIKE_BITS, plan
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.criteria.support import SupportWeights
@@ -13,8 +14,7 @@ from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.costs.whole_lane import (
     LaneDifferences,
     LaneSums,
-    columns_layout,
-    pixels_layout,
+    inside_layout,
     row_of,
     rows_layout,
     supports_layout,
@@ -31,8 +31,8 @@ COLUMN_TIME = 2
 """Clocks from a slot's first step to its columns: they go to all lanes from afar, and a running sum is looked
 up before its columns are compared."""
 
-GROUP = 16
-"""Lanes whose running sums lie in one memory."""
+DEEP_RING = 3
+"""Places from which on a lane's ring of right columns is distributed RAM: flip-flops run out before."""
 
 
 def tags_layout(config: Config) -> data.StructLayout:
@@ -128,7 +128,7 @@ class WholeCosts(wiring.Component):
         def at(value: Value, clock: int, name: str) -> Value:
             return delayed(m, value, clock, name)
 
-        # A pixel's column in both views: the row that enters the sums, and the one that leaves them.
+        # A pixel's column in both views: all rows that are compared.
         row_layout = rows_layout(plan_)
         left, right = Signal(row_layout), Signal(row_layout)
         for view, columns in (("left", left), ("right", right)):
@@ -137,7 +137,8 @@ class WholeCosts(wiring.Component):
             for field, rows in plan_.rows.items():
                 for k, lag in enumerate(rows):
                     m.d.comb += Value.cast(columns[row_of(field, lag)]).eq(Value.cast(fields[field][k]))
-        m.submodules.right = ring = RightColumns(config, row_layout)
+        in_memory = config.steps - 1 >= DEEP_RING
+        m.submodules.right = ring = RightColumns(config, row_layout, registers=False if in_memory else None)
         m.d.comb += [
             ring.valid.eq(valid[column_time]),
             ring.first.eq(first[column_time]),
@@ -165,7 +166,8 @@ class WholeCosts(wiring.Component):
             m.d.sync += place.eq(place + 1)
             with m.If(first[place_time - 1] & at(slot.first_column, place_time - 1, "line")):
                 m.d.sync += place.eq(0)
-        news = at(Value.cast(slot.rows), column_time + 1, "rows")
+        rows_of = at(Value.cast(slot.rows), column_time + 1, "rows")
+        column_inside = at(slot.inside, column_time + 1, "column")
         top = at(slot.top, place_time, "top")
         outside = at(~slot.inside, place_time, "outside")
 
@@ -175,6 +177,11 @@ class WholeCosts(wiring.Component):
         self._weights(m, colour, first[column_time], inside, supports)
         border = self._border(m, slots)
         centre = self._centre(m, colour, first[column_time])
+        rows_inside = Signal(inside_layout(plan_))
+        for k, c in enumerate(plan_.columns):
+            # Where a sum runs on it is held back beyond the frame's columns, and not its differences.
+            within = [rows_of[lag] if c.running else rows_of[lag] & column_inside for lag in c.lags]
+            m.d.comb += rows_inside[str(k)].eq(Cat(within))
         differences = []
         for k in range(config.lanes):
             m.submodules[f"differences_{k}"] = lane = LaneDifferences(plan_)
@@ -183,41 +190,39 @@ class WholeCosts(wiring.Component):
                 lane.left.eq(left),
                 lane.right.eq(ring.columns[k]),
                 lane.absent.eq(absent.lanes[k]),
-                *(lane.new_inside[j].eq(news[c.new]) for j, c in enumerate(plan_.columns)),
-                *(lane.old_inside[j].eq(news[c.old]) for j, c in enumerate(plan_.columns)),
+                lane.inside.eq(rows_inside),
             ]
-        columns_of, pixels_of = columns_layout(plan_), pixels_layout(plan_)
+        line_begins = at(slot.first_column, sum_time, "line_begins")
+        full = [
+            at(slot.x > 2 * c.reach, sum_time, f"full_{j}") if plan_.row_runs(c) else Const(0, 1)
+            for j, c in enumerate(plan_.comparisons)
+        ]
         judged = at(slot.emits & ~border, cost_time, "judged")
         step = at(slots.step, cost_time, "step")
         near = near_lanes(m, config, at(slots.step, sum_time + self._sums[0].criteria_latency - 1, "near"))
-        for base in range(0, config.lanes, GROUP):
-            lanes = range(base, min(base + GROUP, config.lanes))
-            comparisons = [c for _ in lanes for c in plan_.columns]
-            m.submodules[f"running_{base}"] = running = RunningSums(
-                [c.column_maximum for c in comparisons],
-                [c.pixel_maximum for c in comparisons],
-                config.places,
-            )
+        join_columns(
+            m,
+            config,
+            plan_,
+            differences,
+            self._sums,
+            valid=valid[place_time],
+            place=place,
+            begins=top,
+            outside=outside,
+            summed=valid[sum_time],
+        )
+        for k, sums in enumerate(self._sums):
+            m.submodules[f"sums_{k}"] = sums
             m.d.comb += [
-                running.valid.eq(valid[place_time]),
-                running.place.eq(place),
-                running.begins.eq(top),
-                running.outside.eq(outside),
+                sums.valid.eq(valid[sum_time]),
+                sums.begins.eq(line_begins),
+                sums.full.eq(Cat(*full)),
+                sums.supports.eq(supports),
+                sums.near.eq(near[k]),
+                self.costs[k].eq(sums.o),
+                self.excluded[k].eq(exclusion.lanes[k] | ~judged),
             ]
-            for n, k in enumerate(lanes):
-                low, high = n * columns_of.size, (n + 1) * columns_of.size
-                new = slice(n * pixels_of.size, (n + 1) * pixels_of.size)
-                m.submodules[f"sums_{k}"] = sums = self._sums[k]
-                m.d.comb += [
-                    running.new.as_value()[new].eq(differences[k].new.as_value()),
-                    running.old.as_value()[new].eq(differences[k].old.as_value()),
-                    sums.valid.eq(valid[sum_time]),
-                    sums.columns.as_value().eq(running.o.as_value()[low:high]),
-                    sums.supports.eq(supports),
-                    sums.near.eq(near[k]),
-                    self.costs[k].eq(sums.o),
-                    self.excluded[k].eq(exclusion.lanes[k] | ~judged),
-                ]
 
         tags = Signal(self.tags.shape())
         m.d.comb += [

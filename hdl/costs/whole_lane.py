@@ -1,6 +1,6 @@
 """The two halves of a lane whose criteria are summed down columns: before the column sums and behind them."""
 
-from amaranth.hdl import Module, Value
+from amaranth.hdl import Module, Value, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -8,6 +8,7 @@ from softdepth.hdl.arithmetic.pipeline import Pipeline, clocks, tree_operations
 from softdepth.hdl.costs.comparison import Comparison, Plan
 from softdepth.hdl.costs.cost import FuzzyCost, fraction_layout
 from softdepth.hdl.costs.criteria.row_box import RowBox
+from softdepth.hdl.costs.criteria.row_sum import RowSum
 from softdepth.hdl.costs.criteria.support import SupportMean, support_layout
 from softdepth.hdl.costs.criteria.unlikeness import Hamming
 from softdepth.hdl.memory.delay import Delay
@@ -21,20 +22,33 @@ def row_of(field: str, lag: int) -> str:
 
 
 def rows_layout(plan: Plan) -> data.StructLayout:
-    """Of each criterion the descriptor that enters its sums and the one that leaves them, each once."""
-    return data.StructLayout(
-        {row_of(c.field, lag): c.shape for c in plan.comparisons for lag in (c.new, c.old)}
-    )
+    """Of each criterion the descriptors of all rows that are compared, each once."""
+    return data.StructLayout({row_of(c.field, lag): c.shape for c in plan.comparisons for lag in c.lags})
+
+
+def inside_layout(plan: Plan) -> data.StructLayout:
+    """Of each column that is summed which of its rows lie in the frame."""
+    return data.StructLayout({str(k): len(c.lags) for k, c in enumerate(plan.columns)})
 
 
 def pixels_layout(plan: Plan) -> data.StructLayout:
-    """Of each column that is summed a pixel's difference."""
-    return data.StructLayout({str(k): range(c.pixel_maximum + 1) for k, c in enumerate(plan.columns)})
+    """Of each the differences of these rows."""
+    fields = {
+        str(k): data.ArrayLayout(unsigned(c.pixel_maximum.bit_length()), len(c.lags))
+        for k, c in enumerate(plan.columns)
+    }
+    return data.StructLayout(fields)
 
 
 def columns_layout(plan: Plan) -> data.StructLayout:
     """Of each its sum."""
     return data.StructLayout({str(k): range(c.column_maximum + 1) for k, c in enumerate(plan.columns)})
+
+
+def leaving_layout(plan: Plan) -> data.StructLayout:
+    """Of each criterion whose sum along the row runs on, by its number: a column's sum."""
+    running = {str(k): c for k, c in enumerate(plan.comparisons) if plan.row_runs(c)}
+    return data.StructLayout({k: range(c.column_maximum + 1) for k, c in running.items()})
 
 
 def supports_layout(plan: Plan) -> data.StructLayout:
@@ -44,47 +58,43 @@ def supports_layout(plan: Plan) -> data.StructLayout:
 
 
 class LaneDifferences(wiring.Component):
-    """A candidate's differences in the row that enters the sums and in the one that leaves them.
+    """A candidate's differences in all rows that are compared.
 
     Members
     -------
-    left, right : descriptors of both rows.
+    left, right : their descriptors, `rows_layout`.
     absent : one clock later: the candidate has no partner.
-    new_inside, old_inside : one clock later, a bit a column: the row lies in the frame.
-    new, old : the differences, `latency` clocks after the descriptors.
+    inside : one clock later, `inside_layout`: what lies outside the frame differs by 0.
+    o : the differences, `pixels_layout`, `latency` clocks after the descriptors.
     """
 
     latency = Hamming.latency
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        rows, pixels = rows_layout(plan), pixels_layout(plan)
-        count = len(plan.columns)
+        rows = rows_layout(plan)
         super().__init__(
             {
                 "left": In(rows),
                 "right": In(rows),
                 "absent": In(1),
-                "new_inside": In(count),
-                "old_inside": In(count),
-                "new": Out(pixels),
-                "old": Out(pixels),
+                "inside": In(inside_layout(plan)),
+                "o": Out(pixels_layout(plan)),
             }
         )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         for k, comparison in enumerate(self._plan.columns):
-            ends = (("new", comparison.new, self.new_inside), ("old", comparison.old, self.old_inside))
-            for name, lag, inside in ends:
+            for place, lag in enumerate(comparison.lags):
                 row = row_of(comparison.field, lag)
-                m.submodules[f"{name}_{k}"] = difference = comparison.differences()
+                m.submodules[f"row_{lag}_{k}"] = difference = comparison.differences()
                 m.d.comb += [
                     difference.a.eq(self.left[row]),
                     difference.b.eq(self.right[row]),
                     difference.absent.eq(self.absent),
-                    difference.inside.eq(inside[k]),
-                    getattr(self, name)[str(k)].eq(difference.o),
+                    difference.inside.eq(self.inside[str(k)][place]),
+                    self.o[str(k)][place].eq(difference.o),
                 ]
         return m
 
@@ -95,6 +105,7 @@ class LaneSums(wiring.Component):
     Members
     -------
     valid, columns : a step's column sums.
+    leaving, begins, full : in the same clock, for sums along the row that run on, as `RowSum` has them.
     supports : in the same clock, of the pixel that is judged, ``plan.right`` columns to the left.
     near : of the inference, `criteria_latency` clocks later.
     o : its cost, ``num / den``, `latency` clocks later.
@@ -116,17 +127,22 @@ class LaneSums(wiring.Component):
             {
                 "valid": In(1),
                 "columns": In(columns_layout(plan)),
+                "leaving": In(leaving_layout(plan)),
+                "begins": In(1),
+                "full": In(len(plan.comparisons)),
                 "supports": In(supports_layout(plan)),
                 "near": In(1),
                 "o": Out(self.layout),
             }
         )
 
-    def _part(self, c: Comparison) -> tuple[SupportMean | RowBox, int, int]:
+    def _part(self, c: Comparison) -> tuple[SupportMean | RowBox | RowSum, int, int]:
         """What makes a criterion of its columns, the slots that they wait, and bits to shift it by."""
         steps, wait = self._config.steps, self._plan.right - c.ahead
         if c.taps:
             return SupportMean(c.column_maximum, c.taps, c.spacing, steps), wait, 0
+        if self._plan.row_runs(c):
+            return RowSum(c.column_maximum, 2 * c.reach + 1, steps), 0, c.own_shift
         return RowBox(c.column_maximum, 2 * c.reach + 1, wait, steps), 0, c.own_shift
 
     def elaborate(self, platform: object) -> Module:
@@ -143,6 +159,12 @@ class LaneSums(wiring.Component):
                 m.d.comb += [delay.en.eq(self.valid), delay.i.eq(column)]
                 column = delay.o
             m.d.comb += [block.valid.eq(self.valid), block.column.eq(column)]
+            if isinstance(block, RowSum):
+                m.d.comb += [
+                    block.leaving.eq(self.leaving[str(k)]),
+                    block.begins.eq(self.begins),
+                    block.full.eq(self.full[k]),
+                ]
             if isinstance(block, SupportMean):
                 support = self.supports[str(k)]
                 m.d.comb += [block.weights.eq(support.weights), block.reciprocal.eq(support.reciprocal)]

@@ -50,7 +50,8 @@ class Descriptors(wiring.Component):
     around those, as a luma remembered takes a third of the memory of a census, and of one and a gradient
     a quarter; colours are remembered where they are compared. Behind a frame's lines there come ``after``
     more, for what is above them.
-    A pixel a clock, but for twice the window's reach a line, and the reach and ``after`` in lines a frame.
+    A pixel every ``clocks`` clocks, but for twice the window's reach a line, and the reach and ``after`` in
+    lines a frame.
 
     Parameters
     ----------
@@ -75,9 +76,10 @@ class Descriptors(wiring.Component):
         rows: Mapping[str, Sequence[int]],
         caps: Mapping[str, int],
         after: int,
+        clocks: int = 1,
     ) -> None:
         self._channels, self._bits, self._max_width = channels, bits, max_width
-        self._rows, self._caps, self._after = dict(rows), dict(caps), after
+        self._rows, self._caps, self._after, self._clocks = dict(rows), dict(caps), after, clocks
         pixel = channels * bits
         self.view = view_layout(caps, rows, pixel)
         members = {"left": self.view, "right": self.view, "colour": unsigned(pixel)}
@@ -111,6 +113,7 @@ class Descriptors(wiring.Component):
             depth=reach + max(max(rows) + reach_of(name) for name, rows in self._rows.items()),
             after=self._after,
             max_width=self._max_width,
+            clocks=self._clocks,
         )
 
         latency = descriptors_latency(self._rows)

@@ -10,6 +10,7 @@ from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.front.overlap import Overlap
+from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
@@ -93,4 +94,5 @@ class Front(wiring.Component):
             rows=needs.rows,
             caps=caps,
             after=needs.below,
+            clocks=clocks_of(self._config.steps),
         )

@@ -21,6 +21,10 @@ class RightColumns(wiring.Component):
     column waits for the next lane: no multiplexer but the ring's own, whatever the number of lanes, and
     none at all with two steps or one.
 
+    Parameters
+    ----------
+    registers : of the rings, as of `Delay`.
+
     Members
     -------
     valid : a step is taken.
@@ -29,8 +33,8 @@ class RightColumns(wiring.Component):
     columns : one column a lane, in the same clock.
     """
 
-    def __init__(self, config: Config, column: ShapeLike) -> None:
-        self._config = config
+    def __init__(self, config: Config, column: ShapeLike, *, registers: bool | None = None) -> None:
+        self._config, self._registers = config, registers
         self._column = column
         super().__init__(
             {
@@ -46,7 +50,9 @@ class RightColumns(wiring.Component):
         entering = self.column
         for lane in range(self._config.lanes):
             current = Signal(self._column, name=f"current_{lane}")
-            m.submodules[f"ring_{lane}"] = ring = Delay(self._column, self._config.steps - 1)
+            m.submodules[f"ring_{lane}"] = ring = Delay(
+                self._column, self._config.steps - 1, registers=self._registers
+            )
             m.submodules[f"wait_{lane}"] = wait = Delay(self._column, 1)
             m.d.comb += [
                 current.eq(ring.o),

@@ -4,7 +4,8 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.memory.packed_memory import PackedMemory
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.folded_memory import FoldedMemory
 from softdepth.hdl.memory.window import MARKERS, raster_layout
 
 
@@ -15,7 +16,7 @@ class TallWindow(wiring.Component):
     a line's first and last columns enter ``reach`` times more than once, a frame's first row into the
     ``reach`` rows above it, and below its last row a column's newest pixel enters again. Behind a frame's
     lines there come ``after`` more, of which the rows above alone mean anything. So a line takes ``2 reach``
-    clocks more than it has pixels, and a frame ``reach + after`` lines more, in which the input is held back;
+    slots more than it has pixels, and a frame ``reach + after`` lines more, in which the input is held back;
     nothing waits for the frame that follows.
 
     Parameters
@@ -25,6 +26,7 @@ class TallWindow(wiring.Component):
     reach : rows below the centre, and columns to its sides.
     depth : rows from the newest to the oldest, that one not counted.
     max_width : pixels of the longest line; the shortest has 4.
+    clocks : of a slot, at least; with more than one, memory is smaller (`FoldedMemory`).
 
     Members
     -------
@@ -38,14 +40,21 @@ class TallWindow(wiring.Component):
     damaged : the frame was mended somewhere up to the window's last pixel.
     """
 
-    latency = 4
-
     def __init__(
-        self, element: ShapeLike, companion: ShapeLike, *, reach: int, depth: int, after: int, max_width: int
+        self,
+        element: ShapeLike,
+        companion: ShapeLike,
+        *,
+        reach: int,
+        depth: int,
+        after: int,
+        max_width: int,
+        clocks: int = 1,
     ) -> None:
         self._element, self._companion = element, companion
         self._reach, self._depth, self._after, self._max_width = reach, depth, after, max_width
         self._across = 2 * reach + 1
+        self.clocks, self.latency = clocks, self.latency_of(clocks)
         super().__init__(
             {
                 "i": In(stream.Signature(raster_layout(element, companion))),
@@ -58,12 +67,17 @@ class TallWindow(wiring.Component):
             }
         )
 
+    @staticmethod
+    def latency_of(clocks: int) -> int:
+        """Clocks from a slot to its window."""
+        return FoldedMemory.latency_of(clocks) + 2
+
     def elaborate(self, platform: object) -> Module:
         m = Module()
         reach, depth, after, across = self._reach, self._depth, self._after, self._across
         item = self.i.payload
 
-        # A slot is a clock in which a column enters: a new one, or the one before again.
+        # A slot begins when a column enters: a new one, or the one before again.
         at_line_start = Signal(init=1)
         x = Signal(range(self._max_width))
         last_x = Signal.like(x)
@@ -78,11 +92,13 @@ class TallWindow(wiring.Component):
         damaged = Signal()
 
         flushing, repeat, new, slot = Signal(), Signal(), Signal(), Signal()
+        may = Signal()
         m.d.comb += [
+            may.eq(self.credit & ~Cat(travelling(m, slot, self.clocks - 1, "pause")[1:]).any()),
             flushing.eq(below != 0),
-            repeat.eq((repeats != 0) & self.credit),
-            self.i.ready.eq((repeats == 0) & ~flushing & self.credit),
-            new.eq((repeats == 0) & self.credit & (flushing | self.i.valid)),
+            repeat.eq((repeats != 0) & may),
+            self.i.ready.eq((repeats == 0) & ~flushing & may),
+            new.eq((repeats == 0) & may & (flushing | self.i.valid)),
             slot.eq(repeat | new),
         ]
         first, last, starts, line_over = Signal(), Signal(), Signal(), Signal()
@@ -129,15 +145,16 @@ class TallWindow(wiring.Component):
         with m.If(emits):
             m.d.sync += fresh.eq(0)
 
-        # Clock 1: the memory is read. Clock 2: its word is there. Clock 3: the column. Clock 4: the window.
+        # When the memory's word is there, when the column, and when the window.
+        found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
         flags = data.StructLayout(
             {"top": 1, "flushing": 1, "x": range(self._max_width), **dict.fromkeys(MARKERS, 1)}
         )
         occurs = data.StructLayout({"new": 1, "slot": 1, "emits": 1})
-        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(5)]
-        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(5)]
-        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(3)]
-        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(3)]
+        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(there + 1)]
+        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(there + 1)]
+        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
+        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
             happens[0].new.eq(new),
             happens[0].slot.eq(slot),
@@ -152,43 +169,43 @@ class TallWindow(wiring.Component):
             pixel[0].eq(item.element),
             along[0].eq(item.companion),
         ]
-        for k in range(4):
+        for k in range(there):
             m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]
-        for k in range(2):
+        for k in range(found):
             m.d.sync += [pixel[k + 1].eq(pixel[k]), along[k + 1].eq(along[k])]
 
         bits, along_bits = len(Value.cast(pixel[0])), len(Value.cast(along[0]))
         lag = reach + after
         word = data.StructLayout({"above": bits * depth, "along": along_bits * lag})
-        m.submodules.lines = lines = PackedMemory(word, self._max_width)
+        m.submodules.lines = lines = FoldedMemory(word, self._max_width, self.clocks)
         above = lines.data.above
-        newest = Value.cast(pixel[2])
+        newest = Value.cast(pixel[found])
         repeated = reach * bits  # of the rows above a frame's first
         column = Signal(bits * (depth + 1), reset_less=True)  # the newest row lowest
         trail = Signal(along_bits * (lag + 1), reset_less=True)
-        with m.If(happens[2].new):
+        with m.If(happens[found].new):
             m.d.sync += [
                 column.eq(
                     Cat(
-                        Mux(stages[2].flushing, above[:bits], newest),
-                        Mux(stages[2].top, newest.replicate(reach), above[:repeated]),
+                        Mux(stages[found].flushing, above[:bits], newest),
+                        Mux(stages[found].top, newest.replicate(reach), above[:repeated]),
                         above[repeated:],
                     )
                 ),
-                trail.eq(Cat(along[2], lines.data.along)),
+                trail.eq(Cat(along[found], lines.data.along)),
             ]
         m.d.comb += [
-            lines.read.eq(happens[1].new),
-            lines.read_at.eq(stages[1].x),
-            lines.write.eq(happens[3].new),
-            lines.write_at.eq(stages[3].x),
+            lines.read.eq(happens[0].new),
+            lines.read_at.eq(stages[0].x),
+            lines.write.eq(happens[found].new),
+            lines.write_at.eq(stages[found].x),
             lines.written.above.eq(column),
             lines.written.along.eq(trail),
         ]
 
         past = [Signal(len(column), name=f"column_{k}", reset_less=True) for k in range(across)]
         trails = [Signal(along_bits, name=f"trail_{k}", reset_less=True) for k in range(reach + 1)]
-        with m.If(happens[3].slot):
+        with m.If(happens[entered_at].slot):
             m.d.sync += [
                 past[-1].eq(column),
                 *(past[k].eq(past[k + 1]) for k in range(across - 1)),
@@ -196,9 +213,9 @@ class TallWindow(wiring.Component):
                 *(trails[k].eq(trails[k + 1]) for k in range(reach)),
             ]
         m.d.comb += [
-            self.valid.eq(happens[4].emits),
+            self.valid.eq(happens[there].emits),
             Value.cast(self.companion).eq(trails[0]),
-            *(getattr(self, name).eq(stages[4][name]) for name in MARKERS),
+            *(getattr(self, name).eq(stages[there][name]) for name in MARKERS),
             *(
                 Value.cast(self.window[r][c]).eq(past[c][r * bits : (r + 1) * bits])
                 for r in range(depth + 1)

@@ -8,6 +8,9 @@ from amaranth.lib.wiring import In, Out
 REGISTER_LIMIT = 16
 """Delays up to this depth are registers; longer ones are a ring in memory."""
 
+DEEP, FEW = 16, 4
+"""Places of distributed RAM, and how many more are registers rather than memory of twice the depth."""
+
 
 class Delay(wiring.Component):
     """Delay a value by ``depth`` enabled clocks.
@@ -20,15 +23,16 @@ class Delay(wiring.Component):
     ----------
     shape : shape of the value.
     depth : enabled clocks; 0 is a wire.
-    registers : whatever the depth, where flip-flops are to be had and lookup tables are not.
+    registers : whether it is registers, whatever the depth: where flip-flops are to be had and lookup tables
+        are not, or the reverse.
     """
 
-    def __init__(self, shape: ShapeLike, depth: int, *, registers: bool = False) -> None:
+    def __init__(self, shape: ShapeLike, depth: int, *, registers: bool | None = None) -> None:
         if depth < 0:
             raise ValueError(f"depth is {depth}, but a delay cannot look ahead")
         self._shape = shape
         self._depth = depth
-        self._in_registers = registers or depth <= REGISTER_LIMIT
+        self._in_registers = depth <= REGISTER_LIMIT if registers is None else registers or depth < 2
         super().__init__({"en": In(1), "i": In(shape), "o": Out(shape)})
 
     def elaborate(self, platform: object) -> Module:
@@ -41,6 +45,19 @@ class Delay(wiring.Component):
                     m.d.sync += register.eq(value)
                 value = register
             m.d.comb += self.o.eq(value)
+            return m
+
+        beyond = self._depth % DEEP
+        if self._depth > DEEP and beyond and beyond <= FEW:
+            m.submodules.ring = ring = Delay(self._shape, self._depth - beyond, registers=False)
+            m.submodules.rest = rest = Delay(self._shape, beyond)
+            m.d.comb += [
+                ring.en.eq(self.en),
+                rest.en.eq(self.en),
+                ring.i.eq(self.i),
+                rest.i.eq(ring.o),
+                self.o.eq(rest.o),
+            ]
             return m
 
         m.submodules.ring = ring = Memory(shape=self._shape, depth=self._depth, init=[])

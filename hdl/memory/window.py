@@ -4,7 +4,8 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.memory.packed_memory import PackedMemory
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.folded_memory import FoldedMemory
 
 MARKERS = ("sof", "eol", "eof", "damaged")
 """A raster's markers: first pixel, last of a line, last of all, and whether the frame was mended so far."""
@@ -21,7 +22,7 @@ class Window(wiring.Component):
     What lies outside the frame repeats its edge; `row_inside` and `column_inside` tell those who would
     rather leave it out. No multiplexer stands in the window: a line's first and last columns enter
     ``columns`` times more than once, a frame's first row enters into all rows of its column, and below
-    its last the column's newest pixel enters again. So a line takes ``2 columns`` clocks more than it has
+    its last the column's newest pixel enters again. So a line takes ``2 columns`` slots more than it has
     pixels, and a frame ``rows`` lines more, in which the input is held back; nothing waits for the frame
     that follows.
 
@@ -30,6 +31,7 @@ class Window(wiring.Component):
     element, companion : what is wanted with its neighbours, and what is wanted of the centre alone.
     rows, columns : reach of the window in all four directions, alike above and below, left and right.
     max_width : pixels of the longest line; the shortest has 4.
+    clocks : of a slot, at least; with more than one, memory is smaller (`FoldedMemory`).
 
     Members
     -------
@@ -43,14 +45,20 @@ class Window(wiring.Component):
     damaged : the frame was mended somewhere up to the window's last pixel.
     """
 
-    latency = 4
-
     def __init__(
-        self, element: ShapeLike, companion: ShapeLike, rows: int, columns: int, max_width: int
+        self,
+        element: ShapeLike,
+        companion: ShapeLike,
+        rows: int,
+        columns: int,
+        max_width: int,
+        *,
+        clocks: int = 1,
     ) -> None:
         self._rows, self._columns, self._max_width = rows, columns, max_width
         self._element, self._companion = element, companion
         self._height, self._across = 2 * rows + 1, 2 * columns + 1
+        self.clocks, self.latency = clocks, self.latency_of(clocks)
         super().__init__(
             {
                 "i": In(stream.Signature(raster_layout(element, companion))),
@@ -65,12 +73,17 @@ class Window(wiring.Component):
             }
         )
 
+    @staticmethod
+    def latency_of(clocks: int) -> int:
+        """Clocks from a slot to its window."""
+        return FoldedMemory.latency_of(clocks) + 2
+
     def elaborate(self, platform: object) -> Module:
         m = Module()
         rows, columns, height, across = self._rows, self._columns, self._height, self._across
         item = self.i.payload
 
-        # A slot is a clock in which a column enters: a new one, or the one before again.
+        # A slot begins when a column enters: a new one, or the one before again.
         at_line_start = Signal(init=1)
         x = Signal(range(self._max_width))
         last_x = Signal.like(x)
@@ -89,11 +102,13 @@ class Window(wiring.Component):
         repeat = Signal()
         new = Signal()
         slot = Signal()
+        may = Signal()
         m.d.comb += [
-            repeat.eq((repeats != 0) & self.credit),
+            may.eq(self.credit & ~Cat(travelling(m, slot, self.clocks - 1, "pause")[1:]).any()),
+            repeat.eq((repeats != 0) & may),
             flushing.eq(below != 0),
-            self.i.ready.eq((repeats == 0) & ~flushing & self.credit),
-            new.eq((repeats == 0) & self.credit & (flushing | self.i.valid)),
+            self.i.ready.eq((repeats == 0) & ~flushing & may),
+            new.eq((repeats == 0) & may & (flushing | self.i.valid)),
             slot.eq(repeat | new),
         ]
         first = Signal()
@@ -155,7 +170,8 @@ class Window(wiring.Component):
         with m.If(emits):
             m.d.sync += fresh.eq(0)
 
-        # Clock 1: the memory is read. Clock 2: its word is there. Clock 3: the column. Clock 4: the window.
+        # When the memory's word is there, when the column, and when the window.
+        found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
         flags = data.StructLayout(
             {
                 "new": 1,
@@ -170,10 +186,10 @@ class Window(wiring.Component):
             }
         )
         occurs = data.StructLayout({"new": 1, "slot": 1, "emits": 1})
-        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(5)]
-        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(5)]
-        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(3)]
-        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(3)]
+        stages = [Signal(flags, name=f"flags_{k}", reset_less=True) for k in range(there + 1)]
+        happens = [Signal(occurs, name=f"occurs_{k}") for k in range(there + 1)]
+        pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
+        along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
             happens[0].new.eq(new),
             happens[0].slot.eq(slot),
@@ -191,54 +207,54 @@ class Window(wiring.Component):
             pixel[0].eq(item.element),
             along[0].eq(item.companion),
         ]
-        for k in range(4):
+        for k in range(there):
             m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]
-        for k in range(2):
+        for k in range(found):
             m.d.sync += [pixel[k + 1].eq(pixel[k]), along[k + 1].eq(along[k])]
 
         element_bits, along_bits = len(Value.cast(pixel[0])), len(Value.cast(along[0]))
-        newest = Value.cast(pixel[2])
+        newest = Value.cast(pixel[found])
         column = Signal(element_bits * height)  # the newest row last
         held = Signal.like(column, reset_less=True)
         trail = Signal(max(along_bits, 1) * (rows + 1))
         held_trail = Signal.like(trail, reset_less=True)
         if rows:
             word = data.StructLayout({"above": element_bits * 2 * rows, "along": along_bits * rows})
-            m.submodules.lines = lines = PackedMemory(word, self._max_width)
+            m.submodules.lines = lines = FoldedMemory(word, self._max_width, self.clocks)
             above = lines.data.above
-            entering = Mux(stages[2].flushing, above[-element_bits:], newest)
+            entering = Mux(stages[found].flushing, above[-element_bits:], newest)
             m.d.comb += [
-                lines.read.eq(happens[1].new),
-                lines.read_at.eq(stages[1].x),
-                column.eq(Mux(stages[2].top, newest.replicate(height), Cat(above, entering))),
-                trail.eq(Cat(lines.data.along, Value.cast(along[2]))),
-                lines.write.eq(happens[3].new),
-                lines.write_at.eq(stages[3].x),
+                lines.read.eq(happens[0].new),
+                lines.read_at.eq(stages[0].x),
+                column.eq(Mux(stages[found].top, newest.replicate(height), Cat(above, entering))),
+                trail.eq(Cat(lines.data.along, Value.cast(along[found]))),
+                lines.write.eq(happens[found].new),
+                lines.write_at.eq(stages[found].x),
                 lines.written.above.eq(held[element_bits:]),
                 lines.written.along.eq(held_trail[along_bits:]),
             ]
         else:
-            m.d.comb += [column.eq(newest), trail.eq(Value.cast(along[2]))]
-        with m.If(happens[2].new):
+            m.d.comb += [column.eq(newest), trail.eq(Value.cast(along[found]))]
+        with m.If(happens[found].new):
             m.d.sync += [held.eq(column), held_trail.eq(trail)]
 
         past = [Signal(element_bits * height, name=f"column_{k}", reset_less=True) for k in range(across)]
         insides = Signal(across, reset_less=True)
         trails = [Signal(max(along_bits, 1), name=f"trail_{k}", reset_less=True) for k in range(columns + 1)]
-        with m.If(happens[3].slot):
+        with m.If(happens[entered_at].slot):
             m.d.sync += [
                 past[-1].eq(held),
                 *(past[k].eq(past[k + 1]) for k in range(across - 1)),
-                insides.eq(Cat(insides[1:], stages[3].inside) if across > 1 else stages[3].inside),
+                insides.eq(Cat(insides[1:], stages[entered_at].inside)),
                 trails[-1].eq(held_trail[: max(along_bits, 1)]),
                 *(trails[k].eq(trails[k + 1]) for k in range(columns)),
             ]
         m.d.comb += [
-            self.valid.eq(happens[4].emits),
-            self.row_inside.eq(stages[4].rows),
+            self.valid.eq(happens[there].emits),
+            self.row_inside.eq(stages[there].rows),
             self.column_inside.eq(insides),
             Value.cast(self.companion).eq(trails[0]),
-            *(getattr(self, name).eq(stages[4][name]) for name in MARKERS),
+            *(getattr(self, name).eq(stages[there][name]) for name in MARKERS),
         ]
         for r in range(height):
             for c in range(across):

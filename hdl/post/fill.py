@@ -1,13 +1,33 @@
 """What was not measured is filled from its row."""
 
-from amaranth.hdl import Module, Mux, Signal, Value
+from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
-from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.packed_queue import PackedQueue
 from softdepth.hdl.post.layout import is_measured, post_layout
+from softdepth.spec.config import CONFIDENCE_BITS
 from softdepth.spec.validity import Validity
+
+UNMEASURED = 3
+"""Where the end of a measured result stands."""
+
+
+def _waiting_layout(colour_bits: int) -> data.StructLayout:
+    """A result in the queue, two words of 18 bits in colour: its value waits among the measured ones.
+
+    ``end`` : 0, 1 for a line's last and 2 for a frame's, or `UNMEASURED`.
+    ``about`` : of a measurement its confidence, else that end.
+    """
+    return data.StructLayout(
+        {
+            "colour": unsigned(colour_bits),
+            "about": unsigned(CONFIDENCE_BITS),
+            "partial": 1,
+            "damaged": 1,
+            "end": unsigned(2),
+        }
+    )
 
 
 class Fill(wiring.Component):
@@ -23,57 +43,56 @@ class Fill(wiring.Component):
     i, o : results, `post_layout`.
     """
 
-    latency = 4
+    latency = PackedQueue.latency + 1
     """Of a measurement; what has none waits for the next, or the line's end."""
 
     def __init__(self, value_bits: int, colour_bits: int, max_width: int) -> None:
         self._layout = post_layout(value_bits, colour_bits)
-        self._value_bits = value_bits
-        self._depth = max_width + 4  # a line, its mark, and what is on its way out
+        self._value_bits, self._colour_bits, self._max_width = value_bits, colour_bits, max_width
         super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         entry = data.StructLayout({"value": self._value_bits, "mark": 1})
-        m.submodules.results = results = SyncFIFOBuffered(width=self._layout.size, depth=self._depth)
-        m.submodules.values = values = SyncFIFOBuffered(width=entry.size, depth=self._depth)
+        waiting = _waiting_layout(self._colour_bits)
+        m.submodules.results = results = PackedQueue(waiting, self._max_width)
+        m.submodules.values = values = PackedQueue(entry, self._max_width)
 
         marks = Signal()  # the line is over: its mark goes in
         taken = Signal()
-        new = Signal(entry)
-        payload = self.i.payload
+        payload, into = self.i.payload, results.i.payload
+        is_one = is_measured(payload.code)
+        end = Mux(payload.eof, 2, payload.eol)
         m.d.comb += [
-            self.i.ready.eq(~marks & results.w_rdy & values.w_rdy),
+            self.i.ready.eq(~marks & results.i.ready & values.i.ready),
             taken.eq(self.i.valid & self.i.ready),
-            results.w_en.eq(taken),
-            results.w_data.eq(payload),
-            new.value.eq(payload.value),
-            new.mark.eq(marks),
-            values.w_data.eq(new),
-            values.w_en.eq((taken & is_measured(payload.code)) | marks),
+            results.i.valid.eq(taken),
+            into.colour.eq(payload.colour),
+            into.about.eq(Mux(is_one, payload.confidence, end)),
+            into.partial.eq(payload.code == Validity.PARTIAL),
+            into.damaged.eq(payload.damaged),
+            into.end.eq(Mux(is_one, end, UNMEASURED)),
+            values.i.payload.value.eq(payload.value),
+            values.i.payload.mark.eq(marks),
+            values.i.valid.eq((taken & is_one) | marks),
         ]
         with m.If(marks):
-            m.d.sync += marks.eq(~values.w_rdy)
+            m.d.sync += marks.eq(~values.i.ready)
         with m.Else():
             m.d.sync += marks.eq(taken & payload.eol)
 
-        # What block RAM gives late is decided upon a clock later.
-        m.submodules.next_result = next_result = ItemQueue(self._layout)
-        m.submodules.next_value = next_value = ItemQueue(entry)
-        for fifo, queue in ((results, next_result), (values, next_value)):
-            m.d.comb += [
-                queue.i.valid.eq(fifo.r_rdy),
-                fifo.r_en.eq(queue.i.ready),
-                Value.cast(queue.i.payload).eq(fifo.r_data),
-            ]
-        result, head = next_result.o.payload, next_value.o.payload
+        result, head = results.o.payload, values.o.payload
+        measured = Signal()
+        ends = Signal(2)
+        m.d.comb += [
+            measured.eq(result.end != UNMEASURED),
+            ends.eq(Mux(measured, result.end, result.about)),
+        ]
         ending = Signal()  # the line has left: so does its mark
         last, any_left = Signal(self._value_bits, reset_less=True), Signal()
-        measured = Signal()
         left_is_smaller = Signal()
         nothing = Signal()
         m.d.comb += [
-            measured.eq(is_measured(result.code)),
             left_is_smaller.eq(any_left & (head.mark | (last < head.value))),
             nothing.eq(~any_left & head.mark),
         ]
@@ -81,17 +100,33 @@ class Fill(wiring.Component):
         gives = Signal()
         full = Signal()
         chosen = Signal(self._layout, reset_less=True)
+        fresh = Signal(init=1)  # the frame's first result has not left
         m.d.comb += [
-            gives.eq(next_result.o.valid & next_value.o.valid & ~ending & (~full | self.o.ready)),
-            next_result.o.ready.eq(gives),
-            next_value.o.ready.eq((gives & measured) | ending),
+            gives.eq(results.o.valid & values.o.valid & ~ending & (~full | self.o.ready)),
+            results.o.ready.eq(gives),
+            values.o.ready.eq((gives & measured) | ending),
             self.o.valid.eq(full),
             self.o.payload.eq(chosen),
         ]
         with m.If(gives):
-            m.d.sync += [full.eq(1), chosen.eq(result), ending.eq(result.eol)]
+            m.d.sync += [
+                full.eq(1),
+                ending.eq(ends != 0),
+                fresh.eq(ends == 2),
+                chosen.colour.eq(result.colour),
+                chosen.damaged.eq(result.damaged),
+                chosen.sof.eq(fresh),
+                chosen.eol.eq(ends != 0),
+                chosen.eof.eq(ends == 2),
+            ]
             with m.If(measured):
-                m.d.sync += [last.eq(result.value), any_left.eq(1)]
+                m.d.sync += [
+                    last.eq(head.value),
+                    any_left.eq(1),
+                    chosen.value.eq(head.value),
+                    chosen.code.eq(Mux(result.partial, Validity.PARTIAL, Validity.FULL)),
+                    chosen.confidence.eq(result.about),
+                ]
             with m.Else():
                 m.d.sync += [
                     chosen.value.eq(Mux(nothing, 0, Mux(left_is_smaller, last, head.value))),
@@ -100,6 +135,6 @@ class Fill(wiring.Component):
                 ]
         with m.Elif(self.o.ready):
             m.d.sync += full.eq(0)
-        with m.If(ending & next_value.o.valid):
+        with m.If(ending & values.o.valid):
             m.d.sync += [ending.eq(0), any_left.eq(0)]
         return m

@@ -16,8 +16,8 @@ from softdepth.spec.validity import Validity
 class Island(wiring.Component):
     """A measurement with fewer than ``least`` measurements in 5x5, its own among them, becomes an island.
 
-    The frame's edge is repeated. An island has value 0 and confidence 0; other results pass. A result a
-    clock, but for 4 clocks a line and 2 lines a frame.
+    The frame's edge is repeated. An island has value 0 and confidence 0; other results pass. A result
+    every ``clocks`` clocks, but for 4 of them a line and 2 lines a frame.
 
     Members
     -------
@@ -28,9 +28,11 @@ class Island(wiring.Component):
     latency = 2
     """From the window to its result in `window_stage`."""
 
-    def __init__(self, value_bits: int, colour_bits: int, max_width: int, least: int) -> None:
+    def __init__(
+        self, value_bits: int, colour_bits: int, max_width: int, least: int, *, clocks: int = 1
+    ) -> None:
         self._layout = post_layout(value_bits, colour_bits)
-        self._max_width = max_width
+        self._max_width, self.clocks = max_width, clocks
         super().__init__(
             {
                 "i": In(stream.Signature(self._layout)),
@@ -42,7 +44,7 @@ class Island(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         layout = without_markers(self._layout)
-        window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width)
+        window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width, clocks=self.clocks)
         found = [element for row in window.window for element in row]
         count = Signal(range(len(found) + 1), reset_less=True)
         island = Signal(reset_less=True)

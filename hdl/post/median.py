@@ -14,7 +14,7 @@ class Median(wiring.Component):
     """Replaces each value by the lower median of its window; code and confidence stay.
 
     The frame's edge is repeated. With ``holes``, results that are no measurement are left out and stay as
-    they are. A result a clock, but for twice ``columns`` a line and ``rows`` lines a frame.
+    they are. A result every ``clocks`` clocks, but for twice ``columns`` a line and ``rows`` lines a frame.
 
     Parameters
     ----------
@@ -35,10 +35,11 @@ class Median(wiring.Component):
         rows: int,
         columns: int,
         holes: bool = False,
+        clocks: int = 1,
     ) -> None:
         self._layout = post_layout(value_bits, colour_bits)
         self._value_bits, self._max_width = value_bits, max_width
-        self._rows, self._columns, self._holes = rows, columns, holes
+        self._rows, self._columns, self._holes, self.clocks = rows, columns, holes, clocks
         samples = (2 * rows + 1) * (2 * columns + 1)
         self._median = LowerMedian(samples, value_bits, all_kept=not holes)
         self.latency = 1 + self._median.latency
@@ -53,7 +54,7 @@ class Median(wiring.Component):
         members = self._layout.members
         element = data.StructLayout({name: members[name] for name in within})
         beside = without_markers(self._layout, *within)
-        window = Window(element, beside, rows, columns, self._max_width)
+        window = Window(element, beside, rows, columns, self._max_width, clocks=self.clocks)
         samples = [s for row in window.window for s in row]
         centre = window.window[rows][columns]
 

@@ -5,6 +5,10 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.popcount import popcount
+from softdepth.hdl.memory.delay import Delay
+
+SOON = 4
+"""Clocks that a bit waits in registers."""
 
 
 class LowerMedian(wiring.Component):
@@ -12,7 +16,8 @@ class LowerMedian(wiring.Component):
 
     Found bit by bit from the top: of the samples that may still be it, those whose bit is 0 are counted.
     If there are more than the rank, it is among them; else it is among the others, and the rank falls by
-    their number. No sample is ever moved. A clock counts and a clock decides, for each bit.
+    their number. No sample is ever moved. A clock counts and a clock decides, for each bit: a bit waits in
+    distributed RAM until its turn comes, where that is not soon.
 
     Parameters
     ----------
@@ -36,19 +41,21 @@ class LowerMedian(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         count_shape = range(self._samples + 1)
-        values: list[Value] = [Value.cast(self.i[k]) for k in range(self._samples)]
         may: Value = ~Signal(self._samples, name="none") if self._all_kept else self.keep
         rank: Value | None = None
         found: list[Value] = []
         for bit in reversed(range(self._bits)):
             zeros, kept = (Signal(count_shape, name=f"{n}_{bit}", reset_less=True) for n in ("zeros", "kept"))
             held_may = Signal(self._samples, name=f"held_{bit}", reset_less=True)
-            held = [Signal(bit + 1, name=f"value_{bit}_{k}", reset_less=True) for k in range(self._samples)]
-            tops = Cat(value[bit] for value in values)
+            turn = 2 * (self._bits - 1 - bit)
+            m.submodules[f"wait_{bit}"] = wait = Delay(self._samples, turn, registers=turn <= SOON)
+            m.d.comb += [wait.en.eq(1), wait.i.eq(Cat(self.i[k][bit] for k in range(self._samples)))]
+            tops = wait.o
+            held_tops = Signal(self._samples, name=f"tops_{bit}", reset_less=True)
             m.d.sync += [
                 zeros.eq(popcount(m, may & ~tops)),
                 held_may.eq(may),
-                *(h.eq(v) for h, v in zip(held, values, strict=True)),
+                held_tops.eq(tops),
             ]
             if rank is None:
                 if self._all_kept:
@@ -63,12 +70,9 @@ class LowerMedian(wiring.Component):
             m.d.comb += is_one.eq(~(held_rank - zeros)[-1])  # the rank is not below the zeros
             below = Signal(count_shape, name=f"rank_{bit}", reset_less=True)
             following_may = Signal(self._samples, name=f"may_{bit}", reset_less=True)
-            following = [Signal(bit, name=f"rest_{bit}_{k}", reset_less=True) for k in range(self._samples)]
-            held_tops = Cat(h[bit] for h in held)
             m.d.sync += [
                 below.eq(Mux(is_one, held_rank - zeros, held_rank)),
                 following_may.eq(held_may & ~(held_tops ^ is_one.replicate(self._samples))),
-                *(f.eq(h[:bit]) for f, h in zip(following, held, strict=True)),
             ]
             so_far = Cat(is_one, *found)
             held_found = [Signal(name=f"found_{bit}_{k}", reset_less=True) for k in range(len(found))]
@@ -76,6 +80,6 @@ class LowerMedian(wiring.Component):
             result = Signal(len(so_far), name=f"result_{bit}", reset_less=True)
             m.d.sync += result.eq(Cat(is_one, *held_found))
             found, rank = list(result), below
-            values, may = list(following), following_may
+            may = following_may
         m.d.comb += self.o.eq(Cat(*found))
         return m

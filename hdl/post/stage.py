@@ -26,6 +26,7 @@ def window_stage(
 
     Parameters
     ----------
+    window : a `Window` or what has its ports.
     i, o : the streams; both have the markers.
     latency : clocks from the window to ``results``.
     element, companion : of the input's payload.
@@ -34,7 +35,7 @@ def window_stage(
     m.submodules.window = window
     payload = i.payload
     layout = o.payload.shape()
-    m.submodules.queue = queue = ResultQueue(layout, window.latency + latency)
+    m.submodules.queue = queue = ResultQueue(layout, -(-(window.latency + latency) // window.clocks))
     m.d.comb += [
         window.i.valid.eq(i.valid),
         i.ready.eq(window.i.ready),

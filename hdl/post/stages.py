@@ -2,6 +2,7 @@
 
 from softdepth.hdl.costs.comparison import LIKE_BITS
 from softdepth.hdl.front.overlap import from_zero
+from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
@@ -20,7 +21,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
     size = (config.result_bits, config.pixel.size)
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
     if post.island:
-        stages["island"] = Island(*size, config.max_width, post.island)
+        stages["island"] = island_of(config)
     if post.fill:
         stages["fill"] = Fill(*size, config.max_width)
     if post.median:
@@ -30,12 +31,18 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
     return stages
 
 
+def island_of(config: Config) -> Island:
+    """The stage of the island test."""
+    size = (config.result_bits, config.pixel.size, config.max_width)
+    return Island(*size, config.post.island, clocks=clocks_of(config.steps))
+
+
 def median_of(config: Config) -> Median:
     """The stage of the median."""
     config = from_zero(config)
     reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
-    holes = not config.post.fill
-    return Median(config.result_bits, config.pixel.size, config.max_width, **reach, holes=holes)
+    size = (config.result_bits, config.pixel.size, config.max_width)
+    return Median(*size, **reach, holes=not config.post.fill, clocks=clocks_of(config.steps))
 
 
 def masked_medians_of(config: Config) -> MaskedMedians:

@@ -24,6 +24,9 @@ from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
 
+KEPT_TOGETHER = 8
+"""Lanes whose costs wait in a memory of their own, with a counter near them."""
+
 
 class WholeWinners(wiring.Component):
     """Finds each pixel's result among the costs that come step by step; back-pressure reaches `credit`.
@@ -100,12 +103,15 @@ class WholeWinners(wiring.Component):
             ]
 
         # All costs again, beside the winner.
-        everything = Cat(Value.cast(self.costs), self.excluded)
-        m.submodules.again = kept = Delay(len(everything), again + Neighbours.costs_late)
+        # Distributed RAM, however short: of registers there would be as many as in all sums of the lanes.
+        for base in range(0, lanes, KEPT_TOGETHER):
+            part = range(base, min(base + KEPT_TOGETHER, lanes))
+            everything = Cat(Cat(self.costs[k], self.excluded[k]) for k in part)
+            again_here = Cat(Cat(beside.costs[k], beside.excluded[k]) for k in part)
+            kept = Delay(len(everything), again + Neighbours.costs_late, registers=False)
+            m.submodules[f"again_{base}"] = kept
+            m.d.comb += [kept.en.eq(1), kept.i.eq(everything), again_here.eq(kept.o)]
         m.d.comb += [
-            kept.en.eq(1),
-            kept.i.eq(everything),
-            Cat(Value.cast(beside.costs), beside.excluded).eq(kept.o),
             beside.valid.eq(valid[again]),
             beside.first.eq(first[again]),
             beside.last.eq(last[again]),

@@ -153,6 +153,9 @@ class Census(AnyCriterion):
 
     What lies outside the image counts 0, and every pixel has a value. `like` is in units of 8-bit
     values: with 256 every column counts. Labels as in `Sad`.
+
+    With `running_sums` the sums down the columns lie in block RAM, of which a row enters and one leaves;
+    else all rows are compared anew, which takes more logic, less memory, and changes no value.
     """
 
     whole_frame: ClassVar[bool] = True
@@ -164,6 +167,7 @@ class Census(AnyCriterion):
     spacing: int = Field(default=4, ge=1, le=8)
     like: int = Field(default=32, ge=1, le=256)
     neutral: int = Field(default=6, ge=0, le=24)
+    running_sums: bool = True
     label_bits: int = Field(default=8, ge=4, le=20)
 
     @model_validator(mode="after")
@@ -221,7 +225,8 @@ class Gradient(AnyCriterion):
 
     The gradient is the luma's Sobel, edges replicated, held within +-`cap`. A pixel's difference is at
     most `truncation`; it is `neutral` where the partner lies left of the right image. What lies
-    outside the image counts 0, and every pixel has a value. Labels as in `Sad`.
+    outside the image counts 0, and every pixel has a value. Labels as in `Sad`, and `running_sums` as in
+    `Census`.
     """
 
     whole_frame: ClassVar[bool] = True
@@ -231,6 +236,7 @@ class Gradient(AnyCriterion):
     cap: int = Field(default=31, ge=1, le=127)
     truncation: int = Field(default=16, ge=1, le=254)
     neutral: int = Field(default=2, ge=0, le=254)
+    running_sums: bool = True
     label_bits: int = Field(default=8, ge=4, le=20)
 
     @model_validator(mode="after")

@@ -44,7 +44,7 @@ PRESETS: dict[str, dict[str, Any]] = {
     },
     "robust-small": {
         "cost": "sum",
-        "criteria": [{"kind": "gradient", "rows": 9, "columns": 9}],
+        "criteria": [{"kind": "gradient", "rows": 9, "columns": 9, "running_sums": False}],
         "post": _ROBUST,
     },
 }

@@ -1,9 +1,11 @@
 """``python -m softdepth.studies.boards_page OUT``: the default cores of all boards, in docs/flow.md.
 
-OUT holds a folder for each board, as `softdepth build` makes them.
+OUT holds a folder for each board, as `softdepth build` makes them. Of a board without one the row stays as it
+is, if it is of the board's own core.
 """
 
 import sys
+from collections.abc import Container, Mapping
 from pathlib import Path
 
 from softdepth.ending import ended
@@ -23,8 +25,11 @@ RESOURCES = tuple(dict.fromkeys(WORDS.values()))
 """What a user counts, a column each; a family has most of them."""
 
 
-def page(manifests: dict[Board, Manifest]) -> str:
-    """The table: a row a board, with what its default core takes of the part and how fast it is."""
+def page(manifests: dict[Board, Manifest], kept: Mapping[str, str] | None = None) -> str:
+    """The table: a row a board, with what its default core takes of the part and how fast it is.
+
+    Rows of other boards, `kept` by the board's name, stand between them.
+    """
     builds = []
     for board, manifest in manifests.items():
         builds.append(
@@ -32,11 +37,22 @@ def page(manifests: dict[Board, Manifest]) -> str:
                 "board": board,
                 "manifest": manifest,
                 "config": Config.from_dict(manifest.config),
+                "core": _core(board, Config.from_dict(manifest.config)),
                 "used": [_used(manifest, resource) for resource in RESOURCES],
                 "suffix": Path(manifest.bitstream).suffix,
             }
         )
-    return render("softdepth.studies", "boards.md", resources=RESOURCES, builds=builds)
+    head, line, *rows = render(
+        "softdepth.studies", "boards.md", resources=RESOURCES, builds=builds
+    ).splitlines()
+    of = dict(kept or {}) | {row.split("`")[1]: row for row in rows}
+    return "\n".join([head, line, *(of[name] for name in BOARDS if name in of)])
+
+
+def _core(board: Board, config: Config) -> str:
+    """The first cells of a board's row: which core its figures are of."""
+    core = f"`{config.name}`, {config.disparities} disparities, lanes = {config.lanes}"
+    return f"| `{board.name}` | {board.device} | {core} | {config.max_width} x {config.max_height} |"
 
 
 def _used(manifest: Manifest, resource: str) -> str:
@@ -46,10 +62,23 @@ def _used(manifest: Manifest, resource: str) -> str:
     return f"{count['used']:,} of {count['available']:,}" if count else "-"
 
 
-def manifests(folder: Path) -> dict[Board, Manifest]:
-    """The manifest of each board's build; raises `InputError` where one is missing or of another core."""
+def kept_rows(table: str) -> dict[str, str]:
+    """Of a table the rows that are of boards' own cores, by the board's name."""
+    starts = {board.name: _core(board, board.config) for board in BOARDS.values()}
+    return {
+        name: row for row in table.splitlines() for name, start in starts.items() if row.startswith(start)
+    }
+
+
+def manifests(folder: Path, kept: Container[str] = ()) -> dict[Board, Manifest]:
+    """The manifest of each board's build, those left out that are not there and whose rows are `kept`.
+
+    Raises `InputError` where another is missing, or one is of another core.
+    """
     found: dict[Board, Manifest] = {}
     for board in BOARDS.values():
+        if board.name in kept and not (folder / board.name / MANIFEST).exists():
+            continue
         path = folder / board.name / MANIFEST
         remedy = f"run: make bitstream BOARD={board.name}"
         try:
@@ -68,7 +97,8 @@ def main(folder: Path, project: Path) -> None:
         text = path.read_text()
     except OSError as error:
         raise InputError(f"'{path}' cannot be read: {error}", "run this in the project's folder") from error
-    text = markers.renew(text, str(DOCUMENT), PART, page(manifests(folder)))
+    kept = kept_rows(text)
+    text = markers.renew(text, str(DOCUMENT), PART, page(manifests(folder, kept), kept))
     write_atomically(path, text.encode())
 
 

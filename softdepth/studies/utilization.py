@@ -102,12 +102,14 @@ class Selection(BaseModel, frozen=True):
     -------
     operator : of the fuzzy stage; anything, best `SUM`, for a preset without one.
     device : an ECP5, placed in the package and speed grade of `PART`.
+    width : the longest line, where it is another than what is asked for.
     """
 
     preset: str
     operator: Operator
     lanes: int
     device: str = PART.device
+    width: int | None = None
 
     def __str__(self) -> str:
         return row_name(self.preset, operator_of(self.preset, self.operator), self.lanes, self.device)
@@ -119,7 +121,11 @@ class Selection(BaseModel, frozen=True):
 
     def config(self, disparities: int = DISPARITIES, width: int = WIDTH) -> Config:
         """The configuration that is measured."""
-        values = [f"lanes={self.lanes}", f"disparities={disparities}", f"max_width={width}"]
+        values = [
+            f"lanes={self.lanes}",
+            f"disparities={disparities}",
+            f"max_width={self.width if self.width is not None else width}",
+        ]
         if operator_of(self.preset, self.operator) != SUM:
             values.append(f"operator={self.operator}")
         return Config.preset(self.preset).override(values)

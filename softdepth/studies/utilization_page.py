@@ -14,6 +14,7 @@ from softdepth.studies.other_families import FamilyRow
 from softdepth.studies.utilization import (
     AIM_MHZ,
     PART,
+    SUM,
     Measurement,
     Row,
     Selection,
@@ -37,13 +38,22 @@ VIDEO_MODES = {
 BLOCK_RAMS = {"LFE5U-12F": 56, "LFE5U-25F": 56, "LFE5U-45F": 108, "LFE5U-85F": 208}
 """Block RAMs of each part; the smallest has the die of the next."""
 
-RECOMMENDED = tuple(
-    Selection.model_validate({"preset": preset, "operator": operator, "lanes": lanes})
-    for preset, operator, lanes in (
-        *((preset, "mean", lanes) for preset in ("paper", "compact", "lite", "sad") for lanes in (8, 32)),
-        *(("compact", operator, 8) for operator in ("min", "prod", "soft_min_1", "soft_min_2")),
-    )
-)
+_PAPERS = [
+    Selection(preset=preset, operator="mean", lanes=lanes)
+    for preset in ("paper", "compact", "lite", "sad")
+    for lanes in (8, 32)
+]
+_OPERATORS = [
+    Selection(preset="compact", operator=operator, lanes=8)
+    for operator in ("min", "prod", "soft_min_1", "soft_min_2")
+]
+_ROBUST = [
+    Selection(preset="robust", operator=SUM, lanes=32),
+    Selection(preset="robust-small", operator=SUM, lanes=32, device="LFE5U-45F"),
+    Selection(preset="robust-small", operator=SUM, lanes=16, device="LFE5U-25F", width=640),
+]
+
+RECOMMENDED = (*_PAPERS, *_OPERATORS, *_ROBUST)
 """The rows of the table."""
 
 QUICK = tuple(row for row in RECOMMENDED if row.lanes == 8 and row.operator == "mean")

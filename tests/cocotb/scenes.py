@@ -169,6 +169,7 @@ def random_whole_config(seed: int) -> Config:
             "spacing": pick([1, 2, 4]),
             "like": pick([20, 32, 100, 256]),
             "neutral": int(rng.integers(25)),
+            "running_sums": pick([True, False]),
             "label_bits": label_bits(),
         }
 
@@ -181,6 +182,7 @@ def random_whole_config(seed: int) -> Config:
             "cap": pick([7, 31, 60]),
             "truncation": truncation,
             "neutral": int(rng.integers(truncation + 1)),
+            "running_sums": pick([True, False]),
             "label_bits": label_bits(),
         }
 

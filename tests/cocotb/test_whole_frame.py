@@ -8,7 +8,7 @@ from amaranth.hdl import Module
 from amaranth.lib import wiring
 
 from softdepth.golden import fixed_model
-from softdepth.hdl.costs import whole_costs
+from softdepth.hdl.costs import column_groups
 from softdepth.hdl.costs.criteria import running_sums
 from softdepth.hdl.post import median, rank
 from softdepth.hdl.post import stages as post_stages
@@ -92,7 +92,7 @@ def keep_running_sums(monkeypatch: pytest.MonkeyPatch) -> None:
             self.arguments = arguments
             super().__init__(*arguments)
 
-    monkeypatch.setattr(whole_costs, "RunningSums", Kept)
+    monkeypatch.setattr(column_groups, "RunningSums", Kept)
 
 
 def take_the_next_right_winner(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -71,6 +71,22 @@ def test_a_board_that_was_not_built_is_named(builds):
         boards_page.manifests(builds)
 
 
+def test_a_board_that_was_not_built_keeps_its_row(builds, tmp_path):
+    document = tmp_path / "docs" / "flow.md"
+    document.parent.mkdir()
+    document.write_text("<!-- boards:begin -->\n<!-- boards:end -->\n")
+    boards_page.main(builds, tmp_path)
+    before = document.read_text()
+    again = manifest(BOARDS["icebreaker"]).model_copy(update={"fmax_mhz": 88.8})
+    (builds / "icebreaker" / MANIFEST).write_text(again.model_dump_json())
+    (builds / "tangnano20k" / MANIFEST).unlink()
+    boards_page.main(builds, tmp_path)
+    assert document.read_text() == before.replace("18.0 | 77.7", "18.0 | 88.8")
+    document.write_text(before.replace("lanes = 4 |", "lanes = 2 |"))
+    with pytest.raises(InputError, match="run: make bitstream BOARD=tangnano20k"):
+        boards_page.main(builds, tmp_path)
+
+
 def test_the_build_of_another_core_is_refused(builds):
     board = BOARDS["ulx3s-12f"]
     other = manifest(board).model_copy(update={"config_hash": "0123456789ab"})

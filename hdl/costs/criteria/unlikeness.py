@@ -81,7 +81,7 @@ class GradientDifference(wiring.Component):
         magnitude = folded + top
         cut: Value = magnitude
         if self._truncation < self._largest:
-            cut = Mux(magnitude > self._truncation, self._truncation, magnitude)
+            cut = Mux(magnitude >= self._truncation, self._truncation, magnitude)
         held = Signal(range(self.maximum + 1), reset_less=True)
         m.d.sync += held.eq(Mux(self.inside, Mux(self.absent, self._neutral, cut), 0))
         m.d.comb += self.o.eq(held)

@@ -19,8 +19,8 @@ def luma(pixel: NDArray[np.int64]) -> int:
     return int(pixel[0] + 2 * pixel[1] + pixel[2]) >> 2
 
 
-@pytest.mark.parametrize("rates", [(1.0, 1.0), (0.6, 0.4)])
-def test_descriptors(rates: tuple[float, float]) -> None:
+@pytest.mark.parametrize(("clocks", "rates"), [(1, (1.0, 1.0)), (2, (0.6, 0.4))])
+def test_descriptors(clocks: int, rates: tuple[float, float]) -> None:
     rng = np.random.default_rng(1)
     contrasts = (256, 20, 256, 40)
     frames = [rng.integers(0, c, (2, *size, 3)) for size, c in zip(SIZES, contrasts, strict=True)]
@@ -34,7 +34,7 @@ def test_descriptors(rates: tuple[float, float]) -> None:
                 item = layout.const({"element": word, **markers(y, x, height, width)})
                 sent.append(item.as_value().value)
     rows = {"census": (0, 9), "narrow": (2, 7), "wide": (1,)}
-    dut = Descriptors(3, 8, 16, rows=rows, caps={"narrow": 31, "wide": 100}, after=AFTER)
+    dut = Descriptors(3, 8, 16, rows=rows, caps={"narrow": 31, "wide": 100}, after=AFTER, clocks=clocks)
     found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
     for frame in frames:
         _, height, width, _ = frame.shape

@@ -20,8 +20,8 @@ SIZES = [(1, 4), (5, 4), (2, 7), (9, 5), (3, 16), (1, 4), (6, 11)]
 class Windows(wiring.Component):
     """A window between two streams."""
 
-    def __init__(self, rows: int, columns: int) -> None:
-        self.inner = Window(BITS, ALONG, rows, columns, 16)
+    def __init__(self, rows: int, columns: int, clocks: int) -> None:
+        self.inner = Window(BITS, ALONG, rows, columns, 16, clocks=clocks)
         ports = ("window", "row_inside", "column_inside", "companion", *MARKERS)
         self.layout = data.StructLayout({p: getattr(self.inner, p).shape() for p in ports})
         super().__init__(
@@ -34,7 +34,7 @@ class Windows(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.window = window = self.inner
-        m.submodules.queue = queue = ResultQueue(self.layout, Window.latency)
+        m.submodules.queue = queue = ResultQueue(self.layout, window.latency)
         wiring.connect(m, wiring.flipped(self.i), window.i)
         wiring.connect(m, queue.o, wiring.flipped(self.o))
         m.d.comb += [
@@ -68,14 +68,17 @@ def items(frame: NDArray[np.int64], damaged: int) -> list[int]:
     ]
 
 
-@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (2, 2), (3, 3), (0, 4), (3, 0), (0, 0), (4, 1)])
+@pytest.mark.parametrize(
+    ("rows", "columns", "clocks"),
+    [(1, 1, 1), (2, 2, 2), (3, 3, 1), (0, 4, 1), (3, 0, 2), (0, 0, 2), (4, 1, 1), (1, 2, 4)],
+)
 @pytest.mark.parametrize("rates", [(1.0, 1.0), (0.7, 0.5)])
-def test_windows(rows: int, columns: int, rates: tuple[float, float]) -> None:
+def test_windows(rows: int, columns: int, clocks: int, rates: tuple[float, float]) -> None:
     rng = np.random.default_rng(rows * 10 + columns)
     frames = [rng.integers(0, 2**BITS, size) for size in SIZES]
     breaks = [9, 10**6, 5, 10**6, 20, 0, 10**6]
     sent = [word for frame, at in zip(frames, breaks, strict=True) for word in items(frame, at)]
-    dut = Windows(rows, columns)
+    dut = Windows(rows, columns, clocks)
     found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
     for frame, at in zip(frames, breaks, strict=True):
         height, width = frame.shape

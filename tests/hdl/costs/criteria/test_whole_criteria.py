@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from amaranth.hdl import Shape
 
+from softdepth.hdl.costs.criteria.column_sum import ColumnSum
 from softdepth.hdl.costs.criteria.row_box import RowBox
+from softdepth.hdl.costs.criteria.row_sum import RowSum
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.criteria.support import SupportMean, SupportWeights
 from softdepth.hdl.costs.criteria.unlikeness import ColourDifference, GradientDifference, Hamming
@@ -61,6 +63,35 @@ def test_colour_difference(channels: int, bits: int) -> None:
         clocks[k + 1] |= {"absent": int(absent[k]), "inside": int(inside[k])}
     expected = [0 if absent[k] or not inside[k] else int(abs(a[k] - b[k]).sum()) for k in range(80)]
     assert observe(ColourDifference(channels, bits), clocks, "o")[2:] == expected
+
+
+@pytest.mark.parametrize(("columns", "steps"), [(9, 2), (7, 1), (15, 4)])
+def test_row_sum(columns: int, steps: int) -> None:
+    """Of lines of all lengths, with pauses between steps."""
+    rng = np.random.default_rng(columns)
+    maximum, expected, clocks = 144, {}, []
+    dut = RowSum(maximum, columns, steps)
+    for width in (columns, 3, 2 * columns + 1):
+        line = rng.integers(0, maximum + 1, (width, steps))
+        for x, step in np.ndindex(line.shape):
+            clocks += [{"valid": 0, "column": int(rng.integers(maximum))}] * int(rng.integers(3))
+            expected[len(clocks)] = int(line[max(x - columns + 1, 0) : x + 1, step].sum())
+            full = x >= columns
+            leaving = int(line[x - columns, step]) if full else int(rng.integers(maximum))
+            clocks.append(
+                {"valid": 1, "column": int(line[x, step]), "leaving": leaving, "begins": x == 0, "full": full}
+            )
+    found = observe(dut, [*clocks, {"valid": 0}, {}], "o")
+    assert {k: found[k + dut.latency] for k in expected} == expected
+
+
+@pytest.mark.parametrize(("maximum", "rows"), [(16, 9), (24, 15), (1, 2), (5, 1), (3, 7)])
+def test_column_sum(maximum: int, rows: int) -> None:
+    rng = np.random.default_rng(rows)
+    columns = np.vstack([np.full((1, rows), maximum), rng.integers(0, maximum + 1, (60, rows))])
+    clocks = [{"i": column.tolist()} for column in columns]
+    found = observe(ColumnSum(maximum, rows), [*clocks, {}, {}], "o")[ColumnSum.latency :]
+    assert found[: len(columns)] == columns.sum(axis=1).tolist()
 
 
 def test_running_sums_begin_from_0_on_each_frame() -> None:

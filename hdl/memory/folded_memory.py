@@ -1,0 +1,95 @@
+"""A memory of wide words that take several clocks to come and to go, and so fewer block RAMs."""
+
+from amaranth.hdl import Cat, Const, Module, Mux, ShapeLike, Signal, Value, unsigned
+from amaranth.lib import wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.packed_memory import PackedMemory
+
+MOST_CLOCKS = 2
+"""Parts of a word, at most."""
+
+
+def clocks_of(steps: int) -> int:
+    """Of a memory in a core that takes so many clocks a pixel."""
+    return 1 << min(steps, MOST_CLOCKS).bit_length() - 1
+
+
+class FoldedMemory(wiring.Component):
+    """One write and one read port for words of which one comes every ``clocks`` clocks at most.
+
+    A word lies in as many parts, one behind the other: the memory is deeper and narrower, of which a part's
+    blocks waste less. 1280 words of 110 bits take ten blocks of 18 kbit, and in halves nine. Addresses
+    and blocks' outputs are registered. A word must not be read until it is written: that takes ``clocks``
+    clocks from the one after ``write``.
+
+    Parameters
+    ----------
+    shape : of a word.
+    places : words.
+    clocks : 1, 2, 4, ... from a word to the next, at least.
+
+    Members
+    -------
+    read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks later and for one clock alone.
+    write, write_at, written : a word to be stored; it is to be held for the ``clocks`` clocks that follow.
+    """
+
+    def __init__(self, shape: ShapeLike, places: int, clocks: int = 1) -> None:
+        if clocks < 1 or clocks & (clocks - 1):
+            raise ValueError(f"a word takes {clocks} clocks, but a memory is folded into 1, 2, 4, ... parts")
+        self._places, self._clocks = places, clocks
+        self.latency = self.latency_of(clocks)
+        super().__init__(
+            {
+                "read": In(1),
+                "read_at": In(range(places)),
+                "data": Out(shape),
+                "write": In(1),
+                "write_at": In(range(places)),
+                "written": In(shape),
+            }
+        )
+
+    @staticmethod
+    def latency_of(clocks: int) -> int:
+        """Clocks from a place to its word."""
+        return clocks + 2
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        clocks = self._clocks
+        word, data = Value.cast(self.written), Value.cast(self.data)
+        part = -(-len(word) // clocks)
+        m.submodules.memory = memory = PackedMemory(unsigned(part), self._places * clocks, registered=True)
+        turns, at = self._addressed(m, self.read, self.read_at, "read")
+        m.d.comb += [memory.read.eq(Cat(*turns).any()), memory.read_at.eq(at)]
+
+        found = [Value.cast(memory.data)]
+        for k in range(clocks - 1):
+            found.append(Signal(part, name=f"found_{k}", reset_less=True))
+            m.d.sync += found[-1].eq(found[-2])
+        m.d.comb += data.eq(Cat(*reversed(found)))
+
+        turns, at = self._addressed(m, self.write, self.write_at, "write")
+        padded = Cat(word, Const(0, part * clocks - len(word)))
+        chosen: Value = padded[:part]
+        for k in range(1, clocks):
+            chosen = Mux(turns[k], padded[k * part : (k + 1) * part], chosen)
+        m.d.comb += [
+            memory.write.eq(Cat(*turns).any()),
+            memory.write_at.eq(at),
+            memory.written.eq(chosen),
+        ]
+        return m
+
+    def _addressed(self, m: Module, happens: Signal, place: Signal, name: str) -> tuple[list[Signal], Value]:
+        """Which part's turn is, from the clock after ``happens`` on, and where it lies."""
+        turns = travelling(m, happens, self._clocks, f"{name}s")[1:]
+        held = Signal.like(place, name=f"{name}_place", reset_less=True)
+        with m.If(happens):
+            m.d.sync += held.eq(place)
+        bits = (self._clocks - 1).bit_length()
+        number = [Cat(turns[k] for k in range(self._clocks) if k >> bit & 1).any() for bit in range(bits)]
+        return turns, Cat(*number, held)

@@ -1,0 +1,69 @@
+"""A long queue in as few block RAMs as its depth allows."""
+
+from amaranth.hdl import Module, ShapeLike, Signal, Value, unsigned
+from amaranth.lib import stream, wiring
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.packed_memory import PackedMemory
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
+
+
+class PackedQueue(wiring.Component):
+    """Lets items wait in a `PackedMemory`, whose blocks use their output registers. An item a clock.
+
+    Behind the memory a short queue takes what was read; no path leads from a block to another.
+
+    Parameters
+    ----------
+    shape : of an item.
+    depth : items that wait, at least.
+
+    Members
+    -------
+    i, o : the items, in order.
+    """
+
+    _read = 2  # clocks from an address to its word
+    latency = 1 + _read + QUEUE_LATENCY
+    """Clocks from an item's transfer to when it is there."""
+
+    def __init__(self, shape: ShapeLike, depth: int) -> None:
+        self._shape, self._depth = shape, depth
+        super().__init__({"i": In(stream.Signature(shape)), "o": Out(stream.Signature(shape))})
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        depth = self._depth
+        new = Value.cast(self.i.payload)
+        m.submodules.memory = memory = PackedMemory(unsigned(len(new)), depth, registered=True)
+        m.submodules.queue = queue = ResultQueue(self._shape, self._read)
+        held = Signal(range(depth + 1))  # words in memory
+        room, some = Signal(init=1), Signal()  # there are fewer than `depth`, and more than none
+        write_at, read_at = Signal(range(depth)), Signal(range(depth))
+        puts, takes = Signal(), Signal()
+        now = Signal.like(held)
+        m.d.comb += [
+            self.i.ready.eq(room),
+            puts.eq(self.i.valid & room),
+            takes.eq(some & queue.credit),
+            now.eq(held + puts - takes),
+        ]
+        m.d.sync += [held.eq(now), room.eq(now != depth), some.eq(now != 0)]
+        for happens, at in ((puts, write_at), (takes, read_at)):
+            with m.If(happens):
+                m.d.sync += at.eq(at + 1)
+                with m.If(at == depth - 1):
+                    m.d.sync += at.eq(0)
+        m.d.comb += [
+            memory.write.eq(puts),
+            memory.write_at.eq(write_at),
+            memory.written.eq(new),
+            memory.read.eq(takes),
+            memory.read_at.eq(read_at),
+            queue.promised.eq(takes),
+            queue.put.eq(travelling(m, takes, self._read, "taken")[-1]),
+            Value.cast(queue.result).eq(memory.data),
+        ]
+        wiring.connect(m, queue.o, wiring.flipped(self.o))
+        return m

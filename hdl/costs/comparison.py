@@ -132,7 +132,7 @@ def _of_gradient(cap: int, truncation: int, neutral: int, **window: Any) -> Comp
 
 def _sad(criterion: Sad, pixel: PixelFormat) -> Comparison:
     """What lies outside, and a candidate without a partner, is nothing that a result depends on."""
-    window = {"rows": criterion.window, "reach": criterion.radius, "dx": criterion.dx}
+    window: dict[str, Any] = {"rows": criterion.window, "reach": criterion.radius, "dx": criterion.dx}
     if criterion.source == "gradient":
         return _of_gradient(GRADIENT_CAP, 2 * GRADIENT_CAP, 0, **window)
     return Comparison(

@@ -43,7 +43,7 @@ class ColumnSum(wiring.Component):
         while len(words) > 1:
             pairs = [Field(a, b) for a, b in zip(words[::2], words[1::2], strict=False)]
             single = words[2 * len(pairs) :]
-            words = add_fields(pipeline, pairs)
+            words = add_fields(pairs)
             words += [pipeline.at(word, words[0].time) for word in single]
         m.d.comb += self.o.eq(pipeline.at(words[0], self.latency * LEVELS).value)
         return m

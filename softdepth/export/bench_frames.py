@@ -12,7 +12,7 @@ from softdepth.hdl.axi.tdata import CHANNELS, DISPARITY_BITS, outcome_layout, pa
 from softdepth.spec.config import Config
 
 FRAMES = 2
-EXTRA_WIDTH, EXTRA_HEIGHT = 32, 8
+EXTRA_WIDTH, EXTRA_HEIGHT = 32, 12
 """How much wider and higher than the least that gives a measurement a frame is, where the core allows."""
 
 Words = NDArray[np.object_]

@@ -19,7 +19,10 @@ CORES: dict[str, tuple[Config, AxiOptions]] = {
     "sad": (Config.preset("sad").override(SIZE), DEFAULT),
     "negative": (Config.preset("sad").override([*SIZE, "min_disparity=-3", "pixel=rgb10"]), TWO),
     # Sixteenths, confidence, check, island, filling and both medians.
-    "robust": (Config.preset("robust-small").override([*SIZE, "pixel=gray12", "disparities=4"]), AxiOptions(bus="wishbone")),
+    "robust": (
+        Config.preset("robust-small").override([*SIZE, "pixel=gray12", "disparities=4"]),
+        AxiOptions(bus="wishbone"),
+    ),
 }
 BROKEN = {
     "a bit of the result": (

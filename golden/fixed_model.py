@@ -18,7 +18,7 @@ For every pixel and candidate d, in exact integer arithmetic:
 6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
    so far when ``N * S_best < N_best * S``.
 
-Which candidates and pixels take part is `borders.validity_codes`' and `candidates.Band`'s matter.
+`borders.validity_codes` and `candidates.Band` decide which candidates and pixels take part.
 With ``cost = "sad"`` steps 2 to 5 fall away: N is the first criterion, S is 1.
 """
 
@@ -48,7 +48,7 @@ from softdepth.spec.validity import Validity
 Integers = NDArray[np.signedinteger[Any]]
 
 NEVER = 1 << 30
-"""Above every cost: stands for a candidate that does not take part."""
+"""More than any cost: marks a candidate that does not take part."""
 
 
 def disparity(left: Image, right: Image, config: Config) -> DisparityMap:
@@ -80,7 +80,7 @@ class Stages:
 
 
 def stages(left: Image, right: Image, config: Config) -> Stages:
-    """What `disparity` gives, and all that it comes from. Errors as there."""
+    """What `disparity` returns, and everything it comes from. Errors as there."""
     _check(left, right, config)
     reference, other = overlap(*to_core_view(left, right, config), config)
     inner = from_zero(config)
@@ -111,7 +111,7 @@ def comparison(config: Config) -> Comparison:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """What the core holds while it judges one pixel; row k of every array is candidate ``first + k``.
+    """The core's values while it judges one pixel; row k of every array is candidate ``first + k``.
 
     Members
     -------
@@ -163,7 +163,7 @@ class Trace:
 
 
 def trace(left: Image, right: Image, config: Config, x: int, y: int, frame: Stages | None = None) -> Trace:
-    """Every intermediate quantity of the pixel (x, y) of the reference view, to debug gateware by.
+    """Every intermediate value of the pixel (x, y) of the reference view, for debugging gateware.
 
     `frame` are the pair's `stages`, if they are known already: post-processing needs the whole frame.
     Errors as in `disparity`; `InputError` also for a pixel outside the image.

@@ -46,8 +46,8 @@ def disparity(
 
     Post-processing is the fixed model's, of these winners.
 
-    Costs that are equal in exact arithmetic may differ in their last bit here, and then no tie is
-    seen. The fixed model has no such doubt.
+    Costs that are equal in exact arithmetic may differ in the last bit here, so a tie can go unnoticed. The
+    fixed model is exact.
 
     Raises `InputError` for unusable images and `ConfigError` for parameters outside their range.
     """

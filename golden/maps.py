@@ -38,7 +38,7 @@ class Difference(NamedTuple):
 
 
 def has_value(code: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """Where there is a disparity beside a code: measured or filled."""
+    """Whether a pixel with this code has a disparity: it was measured or filled."""
     return (code < Validity.BORDER) | (code == Validity.FILLED)
 
 
@@ -110,7 +110,7 @@ class DisparityMap:
     def differences(self, got: Self) -> Iterator[Difference]:
         """Pixels in which `got` departs from this, the expected map; raster order.
 
-        Raises `InputError` when the shapes or units differ, or one alone has confidences.
+        Raises `InputError` if the shapes or units differ, or if only one has confidences.
         """
         if self.shape != got.shape:
             raise InputError(f"expected a {self.shape} map, got {got.shape}", "compare maps of one frame")

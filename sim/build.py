@@ -1,8 +1,8 @@
 """Verilog into a simulation program, once for each design.
 
-Verilator may only optimise what nobody looks at. cocotb's runner makes every signal visible, which
-costs several times the speed, so that this module calls Verilator itself and shows cocotb the top
-ports alone.
+Verilator can only optimise signals that nothing looks at. cocotb's runner makes every signal visible, which
+makes simulation several times slower, so this module calls Verilator itself and shows cocotb only the top
+ports.
 """
 
 import errno
@@ -44,7 +44,7 @@ COCOTB_FLAGS = ("--vpi", "--x-initial", "fast")
 MAKE_FLAGS = ("OPT_FAST=-Og", "OPT_SLOW=-O0", "OPT_GLOBAL=-O2")
 
 LEAST_ROOM = 1 << 20
-"""Bytes: a disk on which a failed build has left less was full."""
+"""Bytes: if a failed build leaves less free space than this, the disk was full."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Build:
 
 @dataclass(frozen=True)
 class Bench:
-    """A bench in C++, and what Verilator is told besides."""
+    """A bench in C++, and further flags for Verilator."""
 
     text: str
     flags: tuple[str, ...]

@@ -1,4 +1,5 @@
-"""Where builds are kept: one folder each, with a lock and a log beside it, and a bound on them all."""
+"""Where builds are kept: one folder each, with a lock and a log beside it, and a limit on their total
+size."""
 
 import os
 import shutil
@@ -13,10 +14,11 @@ from filelock import FileLock, Timeout
 from softdepth.spec.errors import ToolError
 
 MAX_BYTES = 1 << 30
-"""What builds may take together. Most take about a megabyte."""
+"""What builds may take in total. Most take about a megabyte."""
 
 RECENT_SECONDS = 3600.0
-"""A build used within this time stays: it may be about to run. One that runs needs its file no more."""
+"""A build used within this time stays, since it may be about to run. Once running, it no longer needs its
+file."""
 
 
 @contextmanager

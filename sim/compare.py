@@ -1,4 +1,4 @@
-"""Where simulated maps depart from the model's."""
+"""Where simulated maps differ from the model's."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -16,7 +16,7 @@ MOST_VIOLATIONS = 100
 
 
 class Source:
-    """Offers a job's transfers in turn; an offer stands until it is taken.
+    """Offers a job's transfers in turn; an offer stays until it is taken.
 
     Members
     -------
@@ -51,7 +51,7 @@ class Source:
         return False
 
     def drive(self) -> None:
-        """Unless an offer stands, make the next, or pause."""
+        """Unless there is an offer already, make the next one, or pause."""
         was_offered, self.offered = self.offered, not self.exhausted and not self._pauses()
         if self.offered:
             self._payload.value = int(self._transfers[len(self.taken)])

@@ -1,6 +1,6 @@
 """Which stage of the gateware a mismatch speaks of, judged by the fixed model.
 
-The core shows its results alone. The model tells what else would have given them: the line above, one
+The core shows only its results. The model tells what else would have given them: the line above, one
 criterion without the fuzzy stage, an excluded candidate. What is said is what the results are consistent
 with; stages have the names of docs/gateware.md.
 """

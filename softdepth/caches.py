@@ -38,7 +38,7 @@ def settle() -> None:
 
 
 def may_write(folder: Path) -> bool:
-    """Whether a folder that is there, or the one it would be made in, can be written."""
+    """Whether a folder, or the one it would be created in, can be written."""
     try:
         while not folder.exists():
             folder = folder.parent

@@ -29,7 +29,7 @@ _STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Stopped(KeyboardInterrupt):
-    """A signal asks the program to end. It unwinds like Ctrl-C, so that nothing half-made stays."""
+    """A signal asks the program to end. It unwinds as for Ctrl-C, so nothing half-made is left behind."""
 
 
 def ended(work: Callable[[], int | None]) -> int:

@@ -1,4 +1,4 @@
-"""What results depend on in the project itself, as a hash: what older sources gave is told apart.
+"""A hash of the project's sources that results depend on, to recognise results of older sources.
 
 One list serves every cache: a room's hash covers the rooms that it builds on.
 """

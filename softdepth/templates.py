@@ -1,4 +1,4 @@
-"""Pages in Markdown and HTML, rendered from the template files that lie beside the module that fills them."""
+"""Pages in Markdown and HTML, rendered from template files."""
 
 import re
 from functools import cache
@@ -9,13 +9,13 @@ from markupsafe import Markup, escape
 
 
 def render(package: str, template: str, **values: Any) -> str:
-    """A page, without the line feed at its end.
+    """A page, without a final line feed.
 
     Parameters
     ----------
     package : the package with the folder ``templates``, in dotted form.
     template : the file in it. In a file called ``.html`` every value is escaped, in others none.
-    values : what the template names. A name that it does not get is an error.
+    values : the values of the template's names. A missing one is an error.
     """
     return _environment(package).get_template(template).render(values).rstrip("\n")
 

@@ -1,1 +1,1 @@
-"""Criteria, then one cost a candidate."""
+"""Criteria, then one cost per candidate."""

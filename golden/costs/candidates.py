@@ -8,7 +8,7 @@ from softdepth.golden.front.pair import Image
 from softdepth.spec.config import Config
 
 BAND_PIXELS = 16384
-"""Pixels of a band. The models hold some thirty numbers a pixel: this many fit a level-2 cache."""
+"""Pixels of a band. The models keep some thirty numbers per pixel: this many fit a level-2 cache."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Band:
         """Each candidate d, ascending, with its criteria.
 
         Criteria are rows x (columns - d): candidate d is excluded in the first d columns, where its
-        window would leave the other image. Candidates that no pixel has do not occur.
+        window would leave the other image. Candidates that no pixel has are skipped.
         """
         _, columns = self.shape
         for d in range(min(self.config.disparities, columns)):

@@ -17,11 +17,11 @@ __all__ = ["EVALUATE", "FrameCriteria", "Values", "compensate"]
 
 
 class FrameValues(Protocol):
-    """One criterion over a frame, from which it gives one band of rows after the other.
+    """One criterion over a frame; it yields one band of rows after another.
 
     Members
     -------
-    first_column : the first column whose pixel has all of its window.
+    first_column : the first column whose pixels have their whole window.
     """
 
     first_column: int
@@ -29,14 +29,14 @@ class FrameValues(Protocol):
     def band(self, first: int, stop: int) -> Callable[[int], Values]:
         """The function from a candidate d to the values of rows ``first .. stop - 1``.
 
-        It gives the pixels that have all of their window, as has their partner: the first is that of
-        column ``first_column + d``.
+        It covers the pixels whose whole window lies inside the image, and their partner's too: the first is
+        in column ``first_column + d``.
         """
         ...
 
 
 EVALUATE: Registry[Callable[[Any, Image, Image, int], FrameValues]] = Registry("model of a criterion")
-"""What each `kind` is computed by: (criterion, left, right, bits of a channel) of a whole frame."""
+"""What computes each `kind`, from (criterion, left, right, bits of a channel) of a whole frame."""
 
 EVALUATE.register("sad", SadValues)
 EVALUATE.register("census", CensusValues)

@@ -16,7 +16,7 @@ Planes = NDArray[Any]
 
 
 class SadValues:
-    """The criterion over a frame: every window that lies in both views.
+    """The criterion over a frame: every window that lies inside both views.
 
     Parameters
     ----------

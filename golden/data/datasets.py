@@ -83,8 +83,8 @@ def names() -> tuple[str, ...]:
 def load(name: str = DEFAULT, reference: View = "left") -> StereoPair:
     """The pair called `name`, with the ground truth of its `reference` view.
 
-    ``motorcycle`` comes with scikit-image. ``middlebury:SCENE`` is looked for in the folder that
-    ``SOFTDEPTH_DATA`` names or, where it is unset, in the user's cache, filled by download.
+    ``motorcycle`` comes with scikit-image. ``middlebury:SCENE`` is read from the folder named by
+    ``SOFTDEPTH_DATA`` or, if that is not set, from the user's cache, downloading it if needed.
     ``synthetic:SCENE[@WIDTHxHEIGHT[xDISPARITIES]][#SEED]`` is made on the spot.
 
     Raises
@@ -133,7 +133,8 @@ def _middlebury(scene: str, reference: View) -> StereoPair:
 
 
 def _fill_from_farther(gray: np.ndarray) -> np.ndarray:
-    """Replace each 0 by the smaller of its row's nearest levels left and right: what a hole shows is far."""
+    """Replace each 0 by the smaller of the nearest levels left and right in its row: holes show the
+    background."""
     columns = np.arange(gray.shape[1])
 
     def left_neighbour(levels: np.ndarray) -> np.ndarray:
@@ -160,7 +161,7 @@ def _fetch(scene: str, file: str) -> np.ndarray:
 
 
 def _find(folder: Path, scene: str, file: str) -> Path:
-    """`file` in a user's folder, in whichever format it is there."""
+    """`file` in a user's folder, in whichever format it has."""
     stem = Path(file).stem
     for suffix in (".png", ".ppm", ".pgm"):
         if (path := folder / scene / f"{stem}{suffix}").is_file():

@@ -1,4 +1,5 @@
-"""Image files decoded without conversion: whatever a camera or a data set wrote, and what white is in it."""
+"""Image files decoded without conversion: the values a camera or a data set wrote, and the value of
+white."""
 
 import io
 import logging
@@ -65,7 +66,7 @@ class Raster:
 
 @dataclass(frozen=True)
 class _Header:
-    """What Pillow tells about a file without decoding it; the defaults where it cannot read it."""
+    """What Pillow knows about a file without decoding it; the defaults if it cannot read it."""
 
     kind: str = ""
     mode: str = ""
@@ -230,10 +231,10 @@ def _unreadable(path: str | Path) -> InputError:
 
 @contextmanager
 def quiet() -> Iterator[io.StringIO]:
-    """Keep what OpenCV, libpng, libjpeg and libtiff say off the terminal; it is in the result afterwards.
+    """Keep the messages of OpenCV, libpng, libjpeg and libtiff off the terminal, and collect them in the
+    result.
 
-    The libraries write to the process's standard error themselves, so that is turned away for as long as
-    they decode.
+    The libraries write to the process's standard error directly, so it is redirected while they decode.
     """
     said = io.StringIO()
     with _quiet_lock, tempfile.TemporaryFile() as aside:

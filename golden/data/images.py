@@ -19,7 +19,7 @@ _DEPTHS = (8, 10, 12, 14, 16)
 """Bits that a 16-bit file may really hold, as cameras have them."""
 
 _LEAST_RANGE = 1 / 4
-"""A pair that uses less of its range than this is worth a word."""
+"""A pair that uses less of its range than this gets a note."""
 
 
 class ImageFile(NamedTuple):
@@ -63,7 +63,7 @@ def read_pair(
 def read_joined(
     path: str | Path, joined: Joined, name: str | None = None, *, bits: int | None = None
 ) -> StereoPair:
-    """Read a pair that lies in one file, as `read_pair` reads two.
+    """Read a pair from one file, as `read_pair` does from two.
 
     Raises
     ------

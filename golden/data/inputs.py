@@ -1,4 +1,4 @@
-"""Getting at what a user names: the bytes of a file or of standard input."""
+"""Reading what a user names: the bytes of a file or of standard input."""
 
 import sys
 from pathlib import Path
@@ -8,11 +8,11 @@ import numpy as np
 from softdepth.spec.errors import InputError
 
 STANDARD_INPUT = "-"
-"""What stands for standard input in place of a file's name."""
+"""The file name that means standard input."""
 
 
 def is_standard_input(path: str | Path | None) -> bool:
-    """Whether this name stands for standard input."""
+    """Whether this name means standard input."""
     return path is not None and str(path) == STANDARD_INPUT
 
 

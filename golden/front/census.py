@@ -1,8 +1,8 @@
 """Census: which of its neighbours are darker than a pixel.
 
 Bit k of a pixel's 24 is set where the luma at the k-th place of `PLACES` is less than the pixel's own.
-The places are the squares of a 7x7 chessboard that have the colour of its centre, without the centre, in
-raster order. Beyond the edges of the image, the pixels there are repeated.
+The places are the squares of a 7x7 chessboard with the colour of its centre, without the centre itself, in
+raster order. Beyond the image, its edge pixels are repeated.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ PLACES = tuple(
     for dx in range(-REACH, REACH + 1)
     if (dy + dx) % 2 == 0 and (dy, dx) != (0, 0)
 )
-"""Rows and columns from the pixel to the neighbours of its bits, lowest bit first."""
+"""Rows and columns from the pixel to the neighbour of each bit, lowest bit first."""
 
 Census = NDArray[np.uint32]
 

@@ -1,4 +1,4 @@
-"""Pictures continued beyond their edges by the pixels there."""
+"""Images extended beyond their edges by repeating the edge pixels."""
 
 from typing import Any
 

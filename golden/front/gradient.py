@@ -1,7 +1,7 @@
 """The horizontal gradient: Sobel, held within +-cap.
 
-``sum over dy in (-1, 0, 1) of (1, 2, 1) * (luma(y + dy, x + 1) - luma(y + dy, x - 1))``. Beyond the edges of
-the image, the pixels there are repeated. Luma of more than 8 bits is cut to its upper 8 before.
+``sum over dy in (-1, 0, 1) of (1, 2, 1) * (luma(y + dy, x + 1) - luma(y + dy, x - 1))``. Beyond the image,
+its edge pixels are repeated. Luma of more than 8 bits is first cut to its upper 8.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from softdepth.golden.front.edges import replicated
 from softdepth.golden.front.luma import Plane
 
 BITS = 8
-"""Bits of luma that the gradient is taken of."""
+"""Bits of luma that the gradient is computed from."""
 
 
 def gradient(luma: Plane, cap: int, bits: int = BITS) -> Plane:

@@ -1,7 +1,7 @@
-"""Which pixels are like another in colour: what supports and masked medians go by.
+"""Which pixels have a similar colour, for supports and masked medians.
 
-Two pixels are alike where they differ by less than `like` in every channel. `like` counts in 8-bit values;
-of pixels with more bits it is scaled, ``like << (bits - 8)``.
+Two pixels are alike if they differ by less than `like` in every channel. `like` is in 8-bit values; for
+pixels with more bits it is scaled, ``like << (bits - 8)``.
 """
 
 from typing import Any

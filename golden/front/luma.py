@@ -1,6 +1,6 @@
-"""Luma: what census and gradient see of a pixel.
+"""Luma: the value of a pixel that census and gradient use.
 
-``(R + 2 G + B) >> 2``, in the pixels' own bits. Of gray pixels it is the pixel itself.
+``(R + 2 G + B) >> 2``, in the pixels' own bits. For gray pixels it is the pixel itself.
 """
 
 from typing import Any

@@ -1,8 +1,8 @@
-"""Candidates that do not begin at 0 (`Config.min_disparity`), brought back to those that do.
+"""Candidates that do not begin at 0 (`Config.min_disparity`), reduced to candidates that do.
 
 Candidate d of a pair is candidate ``d - min_disparity`` of the same pair with the other view moved right by
-`min_disparity`. Moved so, the views overlap in all but ``abs(min_disparity)`` columns: the others, the left
-ones of the reference view for a positive one and the right ones for a negative, have no result.
+`min_disparity`. After that, the views overlap in all but ``abs(min_disparity)`` columns. The others have no
+result: the left ones of the reference view if it is positive, the right ones if it is negative.
 """
 
 import numpy as np
@@ -37,7 +37,7 @@ def first_column(config: Config) -> int:
 
 
 def placed(found: DisparityMap, config: Config, width: int) -> DisparityMap:
-    """The overlap's map in the frame, `width` columns wide, with the disparities that are meant."""
+    """The overlap's map placed in the frame, `width` columns wide, with the true disparities."""
     shift = config.min_disparity
     if not shift:
         return found

@@ -1,4 +1,4 @@
-"""What both models demand of a stereo pair."""
+"""What both models require of a stereo pair."""
 
 from typing import Any
 

@@ -1,8 +1,8 @@
 """From the user's reference view to the core's, and back.
 
 The core refers to the left view: candidate d compares ``L(x, y)`` with ``R(x - d, y)``. The paper's
-eq. 7 prints the other form, ``x + d``. In the mirror a right view is a left view, so that form is
-the same core fed with the pair swapped and mirrored, and its result mirrored back.
+eq. 7 prints the other form, ``x + d``. A mirrored right view is a left view, so that form is the same core,
+fed with the pair swapped and mirrored, and its result mirrored back.
 """
 
 import numpy as np

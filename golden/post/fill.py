@@ -1,7 +1,7 @@
-"""Filling: what has no result is taken for the farther of what lies beside it.
+"""Filling: a pixel without a result is assumed to be as far away as the farther of its neighbours.
 
-An invalid result becomes the smaller of the nearest valid ones to its left and right in the row, or the one
-there is. In a row without any it becomes 0.
+An invalid result becomes the smaller of the nearest valid ones to its left and right in the row, or the only
+one. In a row without any it becomes 0.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ def fill(values: NDArray[np.uint16], valid: NDArray[np.bool_]) -> NDArray[np.uin
 
 
 def _last_valid(values: NDArray[np.uint16], valid: NDArray[np.bool_]) -> NDArray[np.uint16]:
-    """Of every pixel, the value of itself or of the nearest to its left that is valid, or `NONE`."""
+    """For every pixel, its own value or that of the nearest valid pixel to its left, or `NONE`."""
     column = np.maximum.accumulate(np.where(valid, np.arange(values.shape[1]), -1), axis=1)
     found = np.take_along_axis(values, np.maximum(column, 0), axis=1)
     return np.where(column < 0, NONE, found).astype(np.uint16)

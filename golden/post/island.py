@@ -1,7 +1,7 @@
-"""The island test: a result with few valid ones around it is none.
+"""The island test: a result with too few valid ones around it is rejected.
 
-Of the 5x5 pixels around, the centre counted and the edges of the image replicated, at least `fewest` must be
-valid before the test.
+Of the 5x5 pixels around it, including the centre and with the image's edges replicated, at least `fewest`
+must be valid before the test.
 """
 
 import numpy as np

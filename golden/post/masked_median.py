@@ -1,8 +1,8 @@
 """The colour-masked median: among the pixels of a run that are like the centre, the lower median.
 
-Of the 2 * reach + 1 pixels of the row around a pixel, those count that lie in the image, are like it in the
-colour of the reference view (`likeness`), and are valid; of n of them rank ``(n - 1) // 2`` is taken.
-Invalid results stay as they are. Down the column it is the same, of the transposed picture.
+Of the 2 * reach + 1 pixels in the row around a pixel, those count that lie in the image, have a similar
+colour in the reference view (`likeness`), and are valid; of these n, rank ``(n - 1) // 2`` is taken. Invalid
+results are left unchanged. Down the column, the same is done to the transposed picture.
 """
 
 import numpy as np

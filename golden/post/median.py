@@ -1,6 +1,6 @@
 """The median of the 5x5 pixels around, edges replicated.
 
-Invalid results stay as they are, and are no samples of others: of n that count, rank ``(n - 1) // 2`` is
+Invalid results are left unchanged and are not used as samples: of the n that count, rank ``(n - 1) // 2`` is
 taken, the thirteenth of 25.
 """
 

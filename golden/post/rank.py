@@ -4,13 +4,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 MISSING = np.uint16(np.iinfo(np.uint16).max)
-"""A sample that does not count: it sorts behind all others."""
+"""A sample that does not count: it sorts after all others."""
 
 
 def lower_median(samples: NDArray[np.uint16]) -> NDArray[np.uint16]:
-    """Of the samples in the last axis, that of rank ``(n - 1) // 2``, n those that are not `MISSING`.
+    """The sample of rank ``(n - 1) // 2`` in the last axis, where n counts those that are not `MISSING`.
 
-    Where all are missing, it is `MISSING`.
+    If all are missing, it is `MISSING`.
     """
     ordered = np.sort(samples, axis=-1)
     count = np.count_nonzero(samples != MISSING, axis=-1)

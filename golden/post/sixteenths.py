@@ -1,8 +1,8 @@
 """Sixteenths of a pixel: two lines of equal and opposite slope through three costs.
 
 With the costs a, c, b of d - 1, the winner d, and d + 1, and ``s = max(a, b) - c``:
-``16 d + floor(8 (a - b) / s + 1 / 2)``. It is 16 d where a neighbour does not take part, or s is not
-above 0. Costs are numbers (`Config.number_range`).
+``16 d + floor(8 (a - b) / s + 1 / 2)``. It is 16 d if a neighbour does not take part or s is not above 0.
+Costs are numbers (`Config.number_range`).
 """
 
 import numpy as np

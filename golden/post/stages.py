@@ -3,15 +3,15 @@
 1. ``winner``: the left winner, with the code of `borders.validity_codes`.
 2. ``check``: results that `check.consistent` does not confirm become INCONSISTENT.
 3. ``island``: those that fail `island.on_an_island` become ISLAND.
-4. ``sixteenths``: the remaining ones get their fraction of a pixel. Whatever has no result is 0 from here.
+4. ``sixteenths``: the remaining ones get their fraction of a pixel. From here on, pixels without a result
+   are 0.
 5. ``fill``: all others, the border band included, are filled, and become FILLED; in a row without a valid
    result they are 0 and become NOTHING.
-6. ``median``, then 7. ``masked median along the row`` and 8. ``masked median down the column``. They
-   change no code. Where `fill` is on, every pixel takes part, as 0 where there was
-   NOTHING; else valid ones alone.
+6. ``median``, then 7. ``masked median along the row`` and 8. ``masked median down the column``. They change
+   no codes. If `fill` is on, every pixel takes part, as 0 if it is NOTHING; otherwise only valid ones do.
 
-A stage that the configuration leaves out is left out here. The confidence of a result is that of its
-winner, and 0 unless it was measured.
+Stages that the configuration leaves out are skipped. A result's confidence is its winner's, and 0 unless it
+was measured.
 """
 
 from typing import NamedTuple

@@ -1,1 +1,1 @@
-"""Winners of both views, and what is wanted of the candidates around the left one."""
+"""Winners of both views, and the costs around the left one."""

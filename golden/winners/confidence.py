@@ -12,7 +12,7 @@ from softdepth.spec.config import CONFIDENCE_BITS, Config
 
 
 def confidence(config: Config, found: Winners) -> NDArray[np.uint8]:
-    """Of every pixel: rows x columns; it speaks of the winner, whether or not that is kept."""
+    """For every pixel, rows x columns: that of its winner, whether or not the winner is kept."""
     margin = np.where(found.runner_up == found.never, 0, found.runner_up - found.at)
     scaled = np.floor(margin / (1 << config.confidence_shift))
     return np.clip(scaled, 0, (1 << CONFIDENCE_BITS) - 1).astype(np.uint8)

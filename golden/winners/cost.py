@@ -13,12 +13,12 @@ Cost = tuple[Array, ...]
 
 @dataclass(frozen=True)
 class Comparison:
-    """What winners know of a cost.
+    """What the winners need to know about costs.
 
     Members
     -------
     beats : where the first cost is less than the second; a mask of their shape.
-    number : the cost as one number a pixel, as fractions of a pixel and margins take it.
+    number : the cost as one number per pixel, for fractions of a pixel and margins.
     never : a number above all those of candidates.
     """
 

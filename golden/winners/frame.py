@@ -24,7 +24,7 @@ CostOf = Callable[[int, list[Values]], Cost]
 
 @dataclass
 class Winners:
-    """Of every pixel of a frame, in the core's view; rows x columns each. 0 in the border band.
+    """For every pixel of a frame, in the core's view; rows x columns each. 0 in the border band.
 
     Members
     -------
@@ -33,7 +33,7 @@ class Winners:
     runner_up : the least cost of those that are neither.
     never : the number that stands for a candidate that does not take part.
 
-    What the configuration does not ask for has no pixels.
+    Arrays that the configuration does not ask for are empty.
     """
 
     left: NDArray[np.uint16]
@@ -69,7 +69,7 @@ def winners(left: Image, right: Image, config: Config, cost: CostOf, comparison:
 
 
 def _numbers(config: Config) -> bool:
-    """Costs around the winner are asked for."""
+    """Whether costs around the winner are wanted."""
     return bool(config.post.fraction_bits) or config.post.confidence
 
 

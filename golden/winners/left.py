@@ -1,6 +1,6 @@
-"""The left winner: of every pixel of the reference view, the candidate of least cost.
+"""The left winner: the candidate of least cost for every pixel of the reference view.
 
-On a tie the smallest d wins: candidates come in ascending order, and a later one must be less.
+On a tie the smallest d wins: candidates come in ascending order, and a later one must be strictly better.
 """
 
 from typing import Any

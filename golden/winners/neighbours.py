@@ -1,4 +1,4 @@
-"""The costs of the candidates beside the winner: what a fraction of a pixel is found from."""
+"""The costs of the candidates beside the winner, from which fractions of a pixel are computed."""
 
 from typing import Any
 

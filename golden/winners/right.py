@@ -1,7 +1,7 @@
-"""The right winner: of every pixel of the other view, the candidate of least cost.
+"""The right winner: the candidate of least cost for every pixel of the other view.
 
-Pixel x of the right view is matched at candidate d by pixel x + d of the left. Those that lie beyond the
-row's last are no candidates. On a tie the smallest d wins.
+Pixel x of the right view is matched at candidate d by pixel x + d of the left. Pixels beyond the end of the
+row are not candidates. On a tie the smallest d wins.
 """
 
 from typing import Any

@@ -30,8 +30,8 @@ def add_fields(fields: Sequence[Field]) -> list[Word]:
     """``a + b + carry`` of every field in one operation, with few adders for all of them.
 
     The fields lie side by side. Below each is a bit in which both operands are the carry that it is
-    given: that bit's sum is the carry out of the field below. So a carry in costs nothing more, and
-    only the ends of a chain are wasted.
+    given: that bit's sum is the carry out of the field below. So a carry in costs nothing extra, and only
+    the ends of a chain are wasted.
     """
     results: list[Word] = []
     chain: list[Field] = []

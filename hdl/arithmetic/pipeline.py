@@ -23,8 +23,8 @@ class Pipeline:
 
     Time is counted in operations, of which ``levels`` fit between two registers: an operation is one
     carry chain, or a table of a few levels. Operands of different times are aligned by registers,
-    widths follow from the ranges. The registers run freely and have no reset: which clocks matter is
-    told by valid bits elsewhere.
+    widths follow from the ranges. The registers run freely and have no reset: valid bits elsewhere say which
+    clocks matter.
     """
 
     def __init__(self, m: Module, levels: int = LEVELS) -> None:
@@ -43,7 +43,7 @@ class Pipeline:
         return Word(Const(value, shape), value, value, time, self)
 
     def result(self, value: ValueLike, minimum: int, maximum: int, time: int, name: str = "result") -> Word:
-        """The word ``value``, an operation on words of ``time``; timing reports speak of it by ``name``."""
+        """The word ``value``, an operation on words of ``time``; timing reports call it ``name``."""
         if (time + 1) % self._levels == 0:
             register = self._register(value, minimum, maximum, name)
             return Word(register, minimum, maximum, time + 1, self)
@@ -101,8 +101,8 @@ class Pipeline:
     def multiply(self, a: Word, b: Word) -> Word:
         """``a * b`` of two words that are never negative, in two clocks from registers to a register.
 
-        The multipliers of an FPGA are far from most logic, and have registers of their own: a clock is for
-        the way there, and one for the product. What of a clock the operands leave unused is lost.
+        The multipliers of an FPGA are far from most logic and have registers of their own: one clock is for
+        the way there, one for the product. If the operands leave part of a clock unused, it is lost.
         """
         there = (clocks(max(a.time, b.time), self._levels) + 1) * self._levels
         a, b = self.at(a, there), self.at(b, there)
@@ -122,7 +122,7 @@ class Pipeline:
         )
 
     def lookup(self, table: Sequence[int], word: Word) -> Word:
-        """``table[word]``; the last entry holds for every larger index."""
+        """``table[word]``; every larger index gets the last entry."""
         low, high = min(table), max(table)
         entries = [Const(value, _shape(low, high)) for value in table]
         if len(table) > SMALL_TABLE:
@@ -158,17 +158,17 @@ class Pipeline:
 
 
 def clocks(operations: int, levels: int = LEVELS) -> int:
-    """Clocks that so many operations in a row take."""
+    """Clocks that so many successive operations take."""
     return -(-operations // levels)
 
 
 def start(operations: int, levels: int = LEVELS) -> int:
-    """When so many operations in a row begin, for the last to end in a register."""
+    """When a row of operations must begin so that the last one ends in a register."""
     return -operations % levels
 
 
 def travelling(m: Module, bit: Signal, clocks: int, name: str, *, since: int = 0) -> list[Signal]:
-    """``bit`` now and after each of ``clocks`` clocks, reset to 0: it tells which data count.
+    """``bit`` now and after each of ``clocks`` clocks, reset to 0: it says which data are valid.
 
     The registers are called ``name_T``, T the clock counted from ``since``.
     """
@@ -185,7 +185,7 @@ def tree_operations(words: int) -> int:
 
 
 def _search(index: Value, entries: Sequence[Const], starts: Sequence[int]) -> Value:
-    """Binary search of the run of equal entries that holds ``index``, by where each run starts."""
+    """Binary search for the run of equal entries containing ``index``, by where each run starts."""
     if len(starts) == 1:
         return entries[starts[0]]
     half = len(starts) // 2
@@ -194,7 +194,7 @@ def _search(index: Value, entries: Sequence[Const], starts: Sequence[int]) -> Va
 
 
 def _late(value: Value) -> str:
-    """The name of a value a clock later: of a signal, its own with the clocks since counted."""
+    """The name of a value one clock later: a signal keeps its own, with the clocks since then appended."""
     if not isinstance(value, Signal):
         return "late"
     name, _, clocks = value.name.rpartition("_late_")

@@ -1,4 +1,4 @@
-"""Functions of words that are part of the operation that follows: choices, masks and complements."""
+"""Functions of words that become part of the operation after them: choices and complements."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What passes from the costs to the winners: the one interface between the two rooms."""
+"""What the costs pass to the winners: the only interface between the two rooms."""
 
 from amaranth.hdl import Module, ShapeLike, Value
 from amaranth.lib import data, wiring
@@ -11,13 +11,13 @@ FORTH = ("begins", "valid", "first", "last", "step", "costs", "excluded", "tags"
 def cost_ports(*, lanes: int, steps: int, cost: ShapeLike, tags: ShapeLike) -> dict[str, Member]:
     """Ports of a component that judges candidates, ``lanes`` a clock; winners have them the other way round.
 
-    Nothing here is held back: who judges begins only where there is ``credit``.
+    Nothing here can be held back: judging begins only when there is ``credit``.
 
     Members
     -------
     credit : another result may be begun.
     begins : one is, a fixed time before its first costs (``latency`` of the costs).
-    valid, first, last, step : a step's costs are there, and where it stands in its pixel.
+    valid, first, last, step : a step's costs are there, and its position within the pixel.
     costs, excluded : of each lane's candidate, `right_columns.candidate`.
     tags : what is known of the result beside its costs, in the same clock or a fixed time before
         (``tags_ahead`` of the costs).
@@ -42,7 +42,7 @@ def winner_ports(*, lanes: int, steps: int, cost: ShapeLike, tags: ShapeLike) ->
 
 
 def join(m: Module, costs: wiring.Component, winners: wiring.Component) -> None:
-    """Connect one that judges to one that chooses."""
+    """Connect costs to winners."""
     m.d.comb += costs.credit.eq(winners.credit)  # type: ignore[attr-defined]
     for name in FORTH:
         m.d.comb += Value.cast(getattr(winners, name)).eq(Value.cast(getattr(costs, name)))

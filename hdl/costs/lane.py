@@ -19,17 +19,17 @@ from softdepth.spec.registry import Registry
 CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's gateware")
 """The component that computes each kind of criterion. All of a kind in a lane share one.
 
-It has the ports of `SadCriteria`. Its ``left`` and ``right`` are as many rows of the column as it likes to
-compare, down to the newest that its own support reaches; its ``o`` comes `latency` clocks later, for the
-pixel `Config.window_right` columns before the one that entered. ``coming`` and ``place`` announce a column
-`look_ahead` clocks before it comes, to those that keep something in memory; it is 0 where that is left out.
+It has the ports of `SadCriteria`. Its ``left`` and ``right`` may have any number of rows of the column, down
+to the newest row in its own support; its ``o`` comes `latency` clocks later, for the pixel
+`Config.window_right` columns before the one that entered. ``coming`` and ``place`` announce a column
+`look_ahead` clocks early, for components that keep something in memory; `look_ahead` defaults to 0.
 """
 
 CRITERIA.register("sad", SadCriteria)
 
 
 def column_layout(config: Config) -> data.ArrayLayout:
-    """The pixels of a column that lanes get, top first: as many rows as any criterion compares."""
+    """The pixels of a column that lanes receive, top first: as many rows as any criterion compares."""
     return data.ArrayLayout(pixel_layout(config.pixel), config.column_rows)
 
 
@@ -99,7 +99,7 @@ class Lane(wiring.Component):
         return m
 
     def _announced(self, m: Module, kind: str) -> list[Any]:
-        """What tells a kind's criteria of the columns to come, when they want to know."""
+        """Statements that announce the coming columns to a kind's criteria, as early as they ask for."""
         block = self._criteria[kind]
         late = self.look_ahead - getattr(block, "look_ahead", 0)
         coming = travelling(m, self.coming, late, f"{kind}_coming")[-1]

@@ -8,7 +8,7 @@ from amaranth.lib.wiring import In, Out
 def candidate_layout(num: ShapeLike, den: ShapeLike, indices: int) -> data.StructLayout:
     """A candidate: its cost ``num / den``, its index, and whether it is out of the running.
 
-    A ``den`` of no bits stands for costs that are plain numbers.
+    A ``den`` without bits means that costs are plain numbers.
     """
     return data.StructLayout({"num": num, "den": den, "index": range(indices), "excluded": 1})
 
@@ -23,9 +23,9 @@ class FractionMin(wiring.Component):
 
     ``a.num / a.den < b.num / b.den`` is decided as ``a.num * b.den < b.num * a.den``: two
     multiplications, no division, nothing rounded. An excluded candidate loses against any other.
-    One pair a clock. Nothing but registers stands before and behind the multipliers, which are far from the
-    logic and have registers of their own: a clock each for the way there, the products, the comparison and
-    the choice. Plain numbers take the last two.
+    One pair a clock. There are only registers directly before and after the multipliers, which are far from
+    the logic and have registers of their own: one clock each for the way there, the products, the comparison
+    and the choice. Plain numbers need only the last two.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ class ArgminSequence(wiring.Component):
                 node.a.eq(held),
                 node.b.eq(current),
             ]
-            # An odd one out at the end meets an earlier one of its own sequence again, which is no harm.
+            # An odd last candidate meets an earlier one of its own sequence again, which is harmless.
             with m.If(valid):
                 m.d.sync += [second.eq(~second & ~last), held.eq(current)]
             valid, last, current = emits, last, node.o

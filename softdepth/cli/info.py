@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from softdepth.rig.geometry import Geometry
 
 DEPTHS = (1, 2, 5, 10)
-"""Where the step of the depth is told, in metres."""
+"""Depths in metres at which the depth step is printed."""
 
 
 @bundled

@@ -125,7 +125,7 @@ class Cameras:
 
     @property
     def given(self) -> bool:
-        """Whether the user has said anything of the cameras."""
+        """Whether the user gave anything about the cameras."""
         return bool(self.numbers or self.calibration or self.unit is not None or self.frame_id is not None)
 
     def geometry(self, size: tuple[int, int] | None) -> "Geometry":

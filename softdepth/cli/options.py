@@ -52,7 +52,7 @@ class Choice:
 
     @property
     def given(self) -> bool:
-        """Whether anything was chosen at all."""
+        """Whether the user chose anything."""
         return bool(self.preset or self.config or self.changes)
 
     @property

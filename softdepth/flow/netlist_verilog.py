@@ -16,7 +16,7 @@ YOSYS_MODELS = ("common_sim.vh", "ccu2c_sim.vh")
 """yosys' own models of lookup tables, carry cells, flip-flops and distributed RAM."""
 
 OWN_MODELS = Path(__file__).parent / "models"
-"""Models of the cells that yosys knows by their ports alone: block RAM and multiplier."""
+"""Models of the cells of which yosys knows only the ports: block RAM and multiplier."""
 
 
 def netlist_verilog(netlist: Netlist) -> str:

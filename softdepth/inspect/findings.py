@@ -30,18 +30,20 @@ FEWEST_POINTS = 20
 LEAST_MATCHED = 0.05
 """Points in both views, and their share of the keypoints, that views of one scene have."""
 ROWS = 0.6
-"""Offset in rows that is told; the fit's own error and the residue of usual calibrations are below 0.3."""
+"""Offset in rows from which it is reported; the fit's own error and the residue of usual calibrations are
+below 0.3."""
 ROW_CHANGE = 0.8
 """Change of the offset over the image likewise; usual calibrations stay below 0.7, and 0.5 degrees exceed it
 from some 200 columns on."""
 ROWS_REDUCED = 0.25
 """The same where images are reduced, in rows of the reduced pair: what keypoints cannot tell is not told."""
 BRIGHTNESS, CONTRAST, UNEVEN = 1.08, 1.12, 0.1
-"""Factors between the views, and their spread over the image, that are told."""
+"""Factors between the views, and their spread over the image, from which they are reported."""
 NEGATIVE, POSITIVE = 0.02, 0.05
-"""Share of negative disparities that is told; share of positive ones below which the views are exchanged."""
+"""Share of negative disparities from which it is reported; share of positive ones below which the views are
+exchanged."""
 OUTSIDE = 0.015
-"""Share of the matched pixels beyond the range that is told."""
+"""Share of matched pixels beyond the range from which it is reported."""
 NEEDLESS = 2
 """Factor between the candidates there are and those that would do."""
 MARGIN = 2

@@ -1,4 +1,4 @@
-"""What a frame in metres is written as, all at once."""
+"""The files of a frame in metres, written together."""
 
 from pathlib import Path
 

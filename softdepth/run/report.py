@@ -68,7 +68,7 @@ class Scored(BaseModel):
 
 
 class Report(BaseModel):
-    """``report.json``. None stands for what the chosen engine does not measure."""
+    """``report.json``. None means that the chosen engine does not measure it."""
 
     schema_version: int = SCHEMA
     engine: str
@@ -116,7 +116,7 @@ def summarise(pair: "StereoPair", config: Config, measurement: Measurement) -> R
 
 
 def accuracy(found: "DisparityMap", truth: "Truth | None") -> Accuracy:
-    """The scores of a map; without a truth the density alone."""
+    """The scores of a map; without a truth, only the density."""
     from softdepth.golden.score.metrics import density, evaluate
 
     if truth is None:

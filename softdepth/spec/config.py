@@ -224,7 +224,7 @@ class Config(Settings):
 
     @property
     def one(self) -> int:
-        """The membership value that stands for 1.0."""
+        """The membership value that means 1.0."""
         return 1 << self.membership_bits
 
     @property

@@ -1,6 +1,6 @@
 """The soft operators in integers (Bobyr et al. 2021, eqs. 5 and 6): tables derived from the formulas.
 
-Both are a hard minimum or maximum plus a small correction that depends on ``|a - b|`` alone:
+Both are a hard minimum or maximum plus a small correction that depends only on ``|a - b|``:
 
 - soft-min I: ``(a + b + D**2 - sqrt((a-b)**2 + D**2)) / 2 = min(a, b) + g(|a-b|)`` with
   ``g(d) = (d + D**2 - sqrt(d**2 + D**2)) / 2``; D is `Config.softness`.

@@ -1,4 +1,4 @@
-"""Documents with measured parts: what a program writes stands between two markers."""
+"""Documents with measured parts: what a program writes is between two markers."""
 
 from softdepth.spec.errors import InputError
 

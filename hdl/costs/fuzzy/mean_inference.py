@@ -34,7 +34,7 @@ class MeanInference(wiring.Component):
         den = 9 + z + t + 3 (j + (0 if c else e)) + k + p + r
         num = 14 w + s (5 (t if same else d) + 3 (2 d if c else m)) + (k if s > 0 else 2 k) - p - 2 r
 
-    Choices and negations stand right in front of additions: a carry cell of ECP5 has room for them.
+    Choices and negations come right before additions, because an ECP5 carry cell has room for them.
     Members are those of `RuleInference`. One candidate a clock.
     """
 

@@ -10,7 +10,7 @@ class Gowin(Family):
     placer = "nextpnr-himbaechel"
     packer = "gowin_pack"
     suffix = ".fs"
-    # yosys would give pads to every module that is mapped by itself: the top alone gets them, at the end.
+    # yosys would add pads to every module it maps separately: only the top gets them, at the end.
     pads = (
         "iopadmap -bits -inpad IBUF O:I -outpad OBUF I:O -toutpad TBUF ~OEN:I:O -tinoutpad IOBUF ~OEN:O:I:IO;"
     )

@@ -11,7 +11,7 @@ class _Device(NamedTuple):
 
 
 DEVICES = {"iCE40UP5K": _Device("--up5k", ("-device", "u", "-dsp"))}
-"""Each part's name for nextpnr, and what yosys is told of it."""
+"""Each part's name for nextpnr, and its options for yosys."""
 
 
 class Ice40(Family):

@@ -1,4 +1,4 @@
-"""Pairs made worse in one way, as cameras do: what a method that was tuned on good ones makes of them."""
+"""Pairs degraded in one way, as cameras do it, to see how a method tuned on good pairs copes."""
 
 from collections.abc import Callable
 from dataclasses import replace

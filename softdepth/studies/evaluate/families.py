@@ -1,4 +1,4 @@
-"""Which data set a scene is of, told by its name: the groups of the tables."""
+"""Which data set a scene belongs to, by its name: the groups of the tables."""
 
 import re
 
@@ -21,7 +21,7 @@ LEVELS = 8
 
 
 def family(name: str) -> str:
-    """The data set that a scene's folder name stands for, or `OTHER`."""
+    """The data set that a scene's folder name belongs to, or `OTHER`."""
     for title, pattern in _FAMILIES.items():
         if re.fullmatch(pattern, name):
             return title

@@ -9,14 +9,14 @@ from softdepth.hdl.arithmetic.wires import flag, wire
 from softdepth.hdl.arithmetic.word import Word
 
 SHORT_BITS = 3
-"""Up to so many low bits of a sum are looked up as they are, together with its sign."""
+"""Up to this many low bits of a sum are looked up directly, together with its sign."""
 
 
 class DistanceTable:
     """``table[|sum|]`` of a signed sum; the last entry holds for every larger magnitude.
 
-    Only the low bits of the magnitude that the table tells apart are made, and none for a short table,
-    which is looked up by sum and sign.
+    Only the low bits of the magnitude that the table distinguishes are computed; a short table needs none of
+    them and is looked up by sum and sign.
 
     Members
     -------

@@ -1,6 +1,5 @@
 """The package as a LiteX module: LiteX's streams, bus and events around the exported Verilog."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -38,8 +37,9 @@ def streams_of(ports: Sequence[dict[str, Any]]) -> list[Stream]:
 
 
 def litex_class(name: str) -> str:
-    """What the module's class is called."""
-    return "".join(part[:1].upper() + part[1:] for part in re.split("_", name))
+    """What the module's class is called: with ``Core`` at its end, so that it is none of LiteX's own."""
+    words = [part[:1].upper() + part[1:] for part in name.split("_")]
+    return "".join(words if words[-1] == "Core" else [*words, "Core"])
 
 
 def litex_module(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[str, Any]]) -> str:

@@ -10,6 +10,7 @@ import pytest
 
 from softdepth.export.axi_package import axi_package
 from softdepth.export.bench_frames import FRAMES, bench_frames
+from softdepth.export.litex_module import litex_class
 from softdepth.hdl.axi.tdata import outcome_layout, pair_bits
 from softdepth.sim.build import TOP, build
 from softdepth.sim.stream import simulate
@@ -49,6 +50,13 @@ def lines(words: str, bits: int, width: int) -> list[dict]:
         data = b"".join((word % (1 << bits)).to_bytes(bits // BYTE, "little") for word in line)
         found.append({"data": data.hex(), "sof": bool(line[0] >> bits & 1)})
     return found
+
+
+@pytest.mark.parametrize(
+    ("name", "found"), [("depth", "DepthCore"), ("softdepth_core", "SoftdepthCore"), ("signal", "SignalCore")]
+)
+def test_the_class_has_a_name_of_its_own(name: str, found: str) -> None:
+    assert litex_class(name) == found
 
 
 def check_frames(verilog: str, addresses: dict, folder: Path) -> None:

@@ -196,9 +196,13 @@ where lines are shorter."""
 
 
 def by_windows(config: Config) -> bool:
-    """Whether a core compares windows of pixels as they are: of colours, with nothing behind the winners."""
+    """Whether a core compares windows of pixels as they are: of colours, with nothing behind the winners.
+
+    It needs a support of more than one row.
+    """
     return (
         not config.post.any
+        and config.reach_rows > 0
         and (config.cost == "fuzzy" or len(config.criteria) == 1)
         and all(_of_pixels(c) for c in config.criteria)
     )

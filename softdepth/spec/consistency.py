@@ -20,11 +20,6 @@ def check(config: "Config") -> None:
     if count != 3 and (config.cost == "fuzzy" or not 0 < count < 3):
         takes = "3" if config.cost == "fuzzy" else "1 to 3"
         raise ValueError(f"criteria has {count} entries, but cost = '{config.cost}' takes {takes}")
-    if config.reach_rows == 0 and not config.whole_frame:
-        raise ValueError(
-            "all windows are 1, but the core needs a support of more than one row: use a window of 3"
-            " or more in one criterion"
-        )
     if config.multipliers > config.max_multipliers:
         raise ValueError(
             f"operator '{config.operator}' in {config.lanes} lanes takes {config.multipliers} multipliers of"

@@ -11,7 +11,6 @@ from softdepth.golden.fixed_model import disparity, trace
 from softdepth.golden.maps import DisparityMap
 from softdepth.hdl.core import StereoCore
 from softdepth.spec.config import Config
-from softdepth.spec.errors import ConfigError
 from softdepth.spec.validity import Validity
 from tests.support.simulation import Transfers, config, pair, sad, stream_through
 
@@ -233,10 +232,11 @@ def test_the_frame_after_a_damaged_one_is_exact() -> None:
     assert result.status == {"short_lines": 1}
 
 
-def test_a_support_of_one_row_is_refused() -> None:
-    """The sequencer learns the width from the line before the first with results."""
-    with pytest.raises(ConfigError, match="support of more than one row"):
-        config(cost="sum", criteria=[sad(1)], disparities=6, lanes=2)
+def test_a_support_of_one_row_is_summed_down_columns() -> None:
+    """The sequencer of windows learns the width from the line before the first with results."""
+    c = config(cost="sum", criteria=[sad(1)], disparities=3, lanes=1)
+    pairs = [images(1, 9, 3), images(2, 6, 1)]
+    check(run(c, pairs, o_rate=0.7).payloads, [disparity(*p, c) for p in pairs])
 
 
 def test_frames_lower_than_the_support() -> None:

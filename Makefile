@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full soak mutation bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading registers readme clean distclean preflight
+.PHONY: help demo test test-fast test-full soak formal mutation bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading registers readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -40,6 +40,9 @@ test-full: $(READY) ## what is too long for every day: whole Middlebury frames w
 # Another number: make soak FRAMES=100.
 soak: $(READY) ## 1,000 random frames through the AXI core, registers written in mid-frame
 	@SOFTDEPTH_SOAK=$(or $(FRAMES),1000) $(BIN)/pytest -q tests/axi -k random_frames
+
+formal: $(READY) ## every proof, at its full depth: docs/verification.md says of what
+	@$(BIN)/pytest -n auto --dist worksteal -m formal tests/hdl
 
 mutation: $(READY) ## faults in small cores, and which the quick regression finds: docs/verification.md
 	@$(BIN)/python -m tests.mutation

@@ -83,7 +83,8 @@ class Bench {
         uint64_t held = 0, quiet = 0, last = 0;
         for (uint64_t clock = 0; !t.cut || clock < t.cut; clock++) {
             offered = taken < t.sent.size() && (offered || !random.in_1024(t.i_pause));
-            const bool ready = !random.in_1024(t.o_pause);
+            // A sink may wait for an offer before it is ready: an offer that waits for it never comes.
+            const bool ready = t.o_pause <= 1024 ? !random.in_1024(t.o_pause) : waiting;
             show(offered ? t.sent[taken] : random.next(), offered, ready, false);
             const bool valid = top->o_valid;
             const uint64_t payload = top->o_payload;

@@ -25,6 +25,10 @@ LONGEST = 64
 """Bits of a payload that the bench can drive."""
 
 
+WAITS = 1025
+"""Of a sink: not ready before there is an offer."""
+
+
 class Due(NamedTuple):
     """The packed result that is due, and the bits of it that count."""
 
@@ -44,6 +48,7 @@ class Trial:
     due : the results, in order; with ``exact``, no more.
     status : the packed counters at the end; None, they are not looked at.
     i_pause, o_pause : shares of the clocks in which nothing is offered, and nothing taken, in 1024ths.
+        With `WAITS` the sink takes what has been on offer for a clock, and nothing sooner.
     seed : of pauses and noise.
     reset : clocks of the reset. Meanwhile noise is on offer, and must not be taken.
     cut : clocks after which it ends, complete or not; 0: it runs to its end.

@@ -13,8 +13,10 @@ from amaranth.lib import data, stream
 from amaranth.lib.wiring import Component, In
 
 from softdepth.hdl.front.item_queue import ItemQueue
-from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
 from tests.support.proofs import late, pipeline_proof, proof
+
+pytestmark = pytest.mark.formal
 
 BITS = 2
 LATENCY = 1
@@ -123,6 +125,46 @@ class Ordered(Component):
 def test_items_are_neither_lost_nor_doubled(tmp_path: Path) -> None:
     assert proof(Ordered(lost=False), tmp_path) != "refuted"
     assert proof(Ordered(lost=True), tmp_path) == "refuted"
+
+
+class Promised(Component):
+    """`ResultQueue` behind a pipeline: what is promised and not dropped leaves, all of it and in order."""
+
+    valid: In(1)
+    drop: In(1)
+    ready: In(1)
+
+    def __init__(self, wrong: bool) -> None:
+        self._wrong = wrong
+        super().__init__()
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        m.submodules.queue = queue = ResultQueue(data.StructLayout({"word": 5}), LATENCY)
+        promised, due = Signal(), Signal(LATENCY)
+        sent, got = Signal(5), Signal(5)
+        m.d.comb += [
+            promised.eq(self.valid & (True if self._wrong else queue.credit)),
+            queue.promised.eq(promised),
+            queue.put.eq(due[-1] & ~self.drop),
+            queue.dropped.eq(due[-1] & self.drop),
+            queue.result.word.eq(sent),
+            queue.o.ready.eq(self.ready),
+        ]
+        m.d.sync += due.eq((due << 1) | promised)
+        with m.If(queue.put):
+            m.d.sync += sent.eq(sent + 1)
+        with m.If(queue.o.valid):
+            m.d.comb += Assert((queue.o.payload.word == got) & (sent != got))
+            with m.If(self.ready):
+                m.d.sync += got.eq(got + 1)
+        m.d.comb += Assert((sent - got)[:5] <= LATENCY + QUEUE_LATENCY + 2)
+        return m
+
+
+def test_promised_results_have_their_places(tmp_path: Path) -> None:
+    assert proof(Promised(wrong=False), tmp_path) != "refuted"
+    assert proof(Promised(wrong=True), tmp_path) == "refuted"
 
 
 class Remembering(Component):

@@ -2,20 +2,32 @@
 
 import json
 from collections import defaultdict
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from amaranth.hdl import Module
-from amaranth.lib import stream
+from amaranth.lib import data, stream
 from amaranth.lib.wiring import Component, In, Out
 
 from softdepth.flow.tools import find_tool
+from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.core import StereoCore
+from softdepth.hdl.front.frame_ends import FrameEnds
+from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.post.fill import Fill
+from softdepth.hdl.post.island import Island
+from softdepth.hdl.post.masked_medians import MaskedMedians
+from softdepth.hdl.post.median import Median
 from softdepth.hdl.text.rtlil import to_rtlil
+from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from tests.support.simulation import sad
+
+pytestmark = pytest.mark.formal
 
 CLOCKED = ("dff", "sdff", "adff", "dffe", "sdffe", "sdffce", "adffe", "aldff", "dffsr", "memwr_v2")
 
@@ -83,12 +95,38 @@ CORES = {
 }
 
 
+def small(name: str) -> Config:
+    return Config.from_dict({"max_width": 32, "max_height": 32, **CORES[name]})
+
+
 @pytest.mark.parametrize("name", CORES)
 def test_no_output_of_a_core_listens_to_ready(name: str, tmp_path: Path) -> None:
-    c = Config.from_dict({"max_width": 32, "max_height": 32, **CORES[name]})
-    assert not listeners(StereoCore(c), tmp_path, "o_ready")
+    assert not listeners(StereoCore(small(name)), tmp_path, "o_ready")
 
 
 def test_an_offer_that_waits_for_ready_is_found(tmp_path: Path) -> None:
     assert listeners(Waiting(), tmp_path, "o_ready") == {"o_valid"}
     assert not listeners(ItemQueue(2), tmp_path, "o_ready")
+
+
+BLOCKS: dict[str, Callable[[], Component]] = {
+    "frame ends": lambda: FrameEnds(small("whole frame")),
+    "front": lambda: Front(small("band")),
+    "descriptors": lambda: Front(small("whole frame")),
+    "island": lambda: Island(1, 1, 8, 5),
+    "fill": lambda: Fill(1, 1, 8),
+    "median": lambda: Median(1, 1, 8, rows=2, columns=2),
+    "masked medians": lambda: MaskedMedians(1, 3, 3, 8, reach=2, like=1),
+    "result queue": lambda: ResultQueue(data.StructLayout({"word": 2}), 3),
+}
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_no_offer_of_a_block_listens_to_ready(name: str, tmp_path: Path) -> None:
+    """Where a block is one register, its `i.ready` may listen; what it offers never does."""
+    assert listeners(BLOCKS[name](), tmp_path, "o_ready") <= {"i_ready"}
+
+
+@pytest.mark.parametrize("options", [AxiOptions(), AxiOptions("wishbone", inputs="two", left=True)])
+def test_no_axi_output_listens_to_ready(options: AxiOptions, tmp_path: Path) -> None:
+    assert not listeners(AxiCore(small("band"), options), tmp_path, "m_axis_tready")

@@ -18,7 +18,7 @@ from softdepth.golden.maps import DisparityMap
 from softdepth.hdl.asked import asked
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.signatures import Status, result_layout
-from softdepth.sim.trials import Due, Trial
+from softdepth.sim.trials import WAITS, Due, Trial
 from softdepth.spec.config import Config
 from tests.cocotb.scenes import checkerboard, flat, noise, textured
 from tests.support.broken_video import Stream, broken_video, good_frame, numbered
@@ -30,12 +30,20 @@ BROKEN = 40
 """Runs of broken video."""
 CUT = 24
 """Runs that a reset ends anywhere."""
+PALE = 8
+"""Runs of next to no contrast."""
 FEWER = 4
-"""By this are both divided where less will do."""
+"""By this are these divided where less will do."""
 FAULTS = 300
 """Frames with every fault that is counted."""
-FREE = ("slow source", "slow sink", "both slow")
-PAUSES = {"full rate": (0, 0), "slow source": (700, 0), "slow sink": (0, 900), "both slow": (400, 400)}
+PAUSED = ("slow source", "slow sink", "both slow", "waiting sink")
+PAUSES = {
+    "full rate": (0, 0),
+    "slow source": (700, 0),
+    "slow sink": (0, 900),
+    "both slow": (400, 400),
+    "waiting sink": (200, WAITS),
+}
 """Shares of clocks in which the source offers nothing and the sink takes nothing, in 1024ths."""
 
 Pair = tuple[Image, Image]
@@ -50,7 +58,7 @@ def regression(config: Config, seed: int = 0, *, thorough: bool = True) -> list[
     trials = [
         full_rate(config, sizes(config)[0], seed),
         full_rate(config, (config.max_width, config.min_height + 2), seed + 10),
-        *(paused(config, name, seed + 20 + k) for k, name in enumerate(FREE)),
+        *(paused(config, name, seed + 20 + k) for k, name in enumerate(PAUSED)),
     ]
     random = Random(seed)
     for k in range(CUT // fewer):
@@ -64,16 +72,20 @@ def regression(config: Config, seed: int = 0, *, thorough: bool = True) -> list[
         trials.append(broken(config, broken_video(seed + k, config)[0], seed + k, rates[k % 3]))
     trials += [broken(config, unmarked(config, seed + k), seed + k, rates[k]) for k in range(2)]
     trials.append(broken(config, marked_later(config), seed))
-    trials += [pale(config, seed + 80 + k) for k in range(3)]
+    trials += [pale(config, seed + 80 + k) for k in range(PALE // fewer)]
     trials.append(broken(config, counted(config, FAULTS // fewer), seed))
     return trials
 
 
 def pale(config: Config, seed: int) -> Trial:
-    """Next to no contrast: costs are close, so that the least of their bits decides."""
+    """Next to no contrast, and views apart by no, little or much light: the least bits of sums decide."""
     rng = np.random.default_rng(seed)
     shape = (2, config.max_height, config.max_width, config.pixel.channels)
-    frames = [tuple(rng.integers(0, contrast, shape).astype(np.uint8)) for contrast in (3, 6, 12, 24)]
+    frames = []
+    for contrast in (3, 6, 12, 24):
+        left, right = rng.integers(0, contrast, shape)
+        frames.append((left.astype(np.uint8), (right + rng.integers(0, 232)).astype(np.uint8)))
+        frames.append((left.astype(np.uint8), right.astype(np.uint8)))
     return sound(config, frames, seed=seed)
 
 

@@ -16,6 +16,8 @@ from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_l
 from tests.support.mutations import mutated
 from tests.support.proofs import late, looked_up, pipeline_proof, proof
 
+pytestmark = pytest.mark.formal
+
 NUM, DEN, NO_DEN = range(-4, 4), range(4), unsigned(0)
 INDICES = 4
 LAYOUTS = {

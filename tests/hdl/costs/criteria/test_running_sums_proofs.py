@@ -3,12 +3,15 @@
 from pathlib import Path
 from typing import Any
 
+import pytest
 from amaranth.hdl import Array, Assert, Assume, Module, Mux, Signal
 from amaranth.lib.wiring import Component, In
 
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from tests.support.mutations import mutated
 from tests.support.proofs import late, proof
+
+pytestmark = pytest.mark.formal
 
 LARGEST, MOST, APART = 3, 7, 6
 CLOCKS = 18

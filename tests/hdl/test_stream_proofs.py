@@ -1,0 +1,83 @@
+"""Proofs of whole blocks between streams: one result a pixel, with its markers, on offer until it is taken.
+
+Sound frames of every size within bounds, any pauses on both sides, every run of so many clocks from reset on.
+More clocks take minutes: `make formal`.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+
+from softdepth.hdl.core import StereoCore
+from softdepth.hdl.front.front import Front
+from softdepth.hdl.post.fill import Fill
+from softdepth.hdl.post.island import Island
+from softdepth.hdl.post.median import Median
+from tests.support.mutations import mutated
+from tests.support.proofs import proof
+from tests.support.rasters import Fault, Rasters
+from tests.support.simulation import config, sad
+
+pytestmark = pytest.mark.formal
+
+BAND = {"cost": "sum", "pixel": "gray8", "disparities": 2, "lanes": 2, "criteria": [sad(3)]}
+SMALL = {"max_width": 8, "max_height": 8}
+LANES = "dut.block.costs.lane_*"
+"""Results do not depend on costs in number, order or markers: what computes them is cut out."""
+
+BLOCKS: dict[str, Callable[[], Any]] = {
+    "fill": lambda: Fill(1, 1, 4),
+    "island": lambda: Island(1, 1, 4, 5),
+    "median": lambda: Median(1, 1, 4, rows=1, columns=1),
+    "front": lambda: Front(config(**BAND, **SMALL)),
+    "core": lambda: StereoCore(config(**BAND, **SMALL)),
+}
+SIZES: dict[str, dict[str, Any]] = {
+    "fill": {"widths": range(1, 4), "heights": range(1, 3), "quiet": 8},
+    "island": {"widths": range(4, 5), "heights": range(1, 2), "quiet": 20},
+    "median": {"widths": range(4, 5), "heights": range(1, 2), "quiet": 20},
+    "front": {"widths": range(4, 7), "heights": range(1, 4), "quiet": 4},
+    "core": {"widths": range(4, 5), "heights": range(1, 3), "quiet": 24},
+}
+
+
+def known(name: str, folder: Path, clocks: int, *, block: Any = None, fault: Fault = "none") -> str:
+    """What a proof over so many clocks says of a block, or of one in its place, or with a fault behind."""
+    dut = Rasters(block or BLOCKS[name](), **SIZES[name], fault=fault)
+    without = LANES if name == "core" else ""
+    return proof(dut, folder, clocks=clocks, induction=False, without=without)
+
+
+@pytest.mark.parametrize(
+    ("name", "clocks"),
+    [
+        ("fill", 11),
+        ("island", 12),
+        ("front", 9),
+        *(
+            pytest.param(name, clocks, marks=pytest.mark.full)
+            for name, clocks in (("fill", 14), ("island", 28), ("median", 28), ("front", 12), ("core", 20))
+        ),
+    ],
+)
+def test_one_result_a_pixel_with_its_markers(name: str, clocks: int, tmp_path: Path) -> None:
+    assert known(name, tmp_path, clocks) == "runs of some clocks"
+
+
+@pytest.mark.parametrize("fault", sorted(set(get_args(Fault)) - {"none"}))
+def test_a_fault_behind_a_block_is_refuted(fault: Fault, tmp_path: Path) -> None:
+    assert known("fill", tmp_path, 11, fault=fault) == "refuted"
+
+
+MUTANTS = {
+    "a result is overwritten": (Fill, (1, 1, 4), "~ending & (~full | self.o.ready)", "~ending"),
+    "a line's mark stays": (Fill, (1, 1, 4), "(gives & measured) | ending", "gives & measured"),
+}
+
+
+@pytest.mark.parametrize("name", MUTANTS)
+def test_a_block_with_a_fault_is_refuted(name: str, tmp_path: Path) -> None:
+    block, sizes, old, new = MUTANTS[name]
+    assert known("fill", tmp_path, 11, block=mutated(block, old, new)(*sizes)) == "refuted"

@@ -1,6 +1,8 @@
 """Pairs out of bags: encodings, matching by time, and what is wrong with a bag."""
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -118,6 +120,17 @@ def test_what_is_no_bag(tmp_path):
     (tmp_path / "file.txt").write_text("no bag")
     with pytest.raises(InputError, match="is no ROS 2 bag"):
         read(tmp_path / "file.txt")
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_file_without_its_folder_and_one_that_was_cut(tmp_path, frames, storage):
+    folder = record(tmp_path / "bag", Recording(frames(2), frames(2, seed=1), storage=storage))
+    (file,) = (each for each in folder.iterdir() if each.suffix in (".mcap", ".db3"))
+    alone = Path(shutil.copy(file, tmp_path / file.name))
+    assert len(read(alone)) == 2
+    file.write_bytes(file.read_bytes()[:-500] if storage is StoragePlugin.MCAP else file.read_bytes()[:5000])
+    with pytest.raises(InputError, match=r"that can be read \(.*mcap recover"):
+        read(folder)
 
 
 def test_without_calibration(tmp_path, frames):

@@ -14,7 +14,7 @@ from softdepth.spec.config import Config
 from tests.cocotb.scenes import noise, textured
 from tests.mutation.regression import sound
 from tests.mutation.study import CORES
-from tests.support.mutations import FRAME_GUARD, mutated_guard
+from tests.support.mutations import COLUMNS, mutated_guard
 
 CLOCKS = 400
 """Of a run that is ended by a reset after its first clock, its second, and so on."""
@@ -51,6 +51,6 @@ def test_a_frame_after_a_reset_at_any_clock_is_exact(name: str) -> None:
 def test_a_register_that_should_be_reset_is_missed(monkeypatch: pytest.MonkeyPatch) -> None:
     """A frame's width that is left from two pixels of another makes lines of two pixels, for ever."""
     kept = "second_last = Signal.like(x, init=config.max_width - 2"
-    broken = mutated_guard(FRAME_GUARD, kept, f"{kept}, reset_less=True")
+    broken = mutated_guard(COLUMNS, kept, f"{kept}, reset_less=True")
     monkeypatch.setattr(front, "FrameGuard", broken)
     assert after_resets(config_of("sad")).wrong

@@ -55,7 +55,7 @@ class WholeLatency:
     def of(cls, config: Config) -> "WholeLatency":
         """Derived from what the core's blocks state."""
         reach, post = plan(config), config.post
-        ahead = window_reach(reach.rows)
+        ahead = window_reach(reach.descriptors.values())
         late = abs(config.min_disparity)  # columns that come in before the first that the views share
         # A line's last pixel waits for the next to come, which may be the frame's end; the right view's
         # winners are known so many columns later, which are the next line's.
@@ -92,7 +92,9 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     tree = ArgminTree(num, den, config.lanes)
     sequence = ArgminSequence(candidate_layout(num, den, config.disparities), steps)
     front = Front.latency + FrameEnds.latency
-    described = TallWindow.latency_of(clocks_of(steps)) + descriptors_latency(plan(config).rows)
+    described = TallWindow.latency_of(clocks_of(steps)) + descriptors_latency(
+        plan(config).descriptors.values()
+    )
     described += QUEUE_LATENCY
     judged = tree.latency + sequence.latency + steps
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency

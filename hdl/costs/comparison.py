@@ -4,10 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from amaranth.hdl import Shape, unsigned
+from amaranth.hdl import Shape
 from amaranth.lib import wiring
 
 from softdepth.hdl.costs.criteria.unlikeness import ColourDifference, GradientDifference, Hamming
+from softdepth.hdl.front.descriptor import CENSUS, Descriptor, colour, gradient
 from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.criteria import (
     GRADIENT_CAP,
@@ -20,9 +21,6 @@ from softdepth.spec.criteria import (
 )
 from softdepth.spec.registry import Registry
 
-CENSUS, COLOUR = "census", "colour"
-"""Descriptors that are no gradients: a pixel's census, and the pixel itself."""
-
 LIKE_BITS = 8
 """Bits of the values in which a configuration says what colours are alike."""
 
@@ -33,8 +31,7 @@ class Comparison:
 
     Members
     -------
-    field : which descriptor.
-    shape : of that.
+    descriptor : what it compares.
     rows : rows that are summed.
     reach : columns to either side of the window's centre.
     pixel_maximum : the largest difference of a pixel.
@@ -42,14 +39,12 @@ class Comparison:
     dx : columns from the pixel to the window's centre, to the right.
     spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
     own_shift : bits by which the value is more than the sum.
-    cap : the bound of the gradient that is its descriptor; None where that is the census.
     running : sums down the columns are kept, of which a row enters and one leaves.
     lags : rows above the newest of those that are compared, ascending: of a running sum the one that enters
         and the one that leaves, else all that are summed; by `plan`.
     """
 
-    field: str
-    shape: Shape
+    descriptor: Descriptor
     rows: int
     reach: int
     pixel_maximum: int
@@ -60,9 +55,18 @@ class Comparison:
     spacing: int = 0
     like: int = 0
     own_shift: int = 0
-    cap: int | None = None
     running: bool = True
     lags: tuple[int, ...] = ()
+
+    @property
+    def field(self) -> str:
+        """The descriptor's name."""
+        return self.descriptor.name
+
+    @property
+    def shape(self) -> Shape:
+        """The descriptor's."""
+        return self.descriptor.shape
 
     @property
     def column_maximum(self) -> int:
@@ -91,8 +95,7 @@ COMPARISONS: Registry[Callable[[Any, PixelFormat], Comparison]] = Registry("crit
 def _census(criterion: Census, pixel: PixelFormat) -> Comparison:
     taps, spacing = (criterion.taps, criterion.spacing) if criterion.taps > 1 else (0, 0)
     return Comparison(
-        field=CENSUS,
-        shape=unsigned(criterion.bits),
+        descriptor=CENSUS,
         rows=criterion.rows,
         reach=taps // 2 * spacing,
         pixel_maximum=criterion.bits,
@@ -118,14 +121,12 @@ def _gradient(criterion: Gradient, pixel: PixelFormat) -> Comparison:
 
 
 def _of_gradient(cap: int, truncation: int, neutral: int, **window: Any) -> Comparison:
-    shape = Shape.cast(range(-cap, cap + 1))
+    descriptor = gradient(cap)
     return Comparison(
-        field=f"gradient_{cap}",
-        shape=shape,
+        descriptor=descriptor,
         pixel_maximum=max(min(truncation, 2 * cap), neutral),
         block=GradientDifference,
-        parameters=(shape, 2 * cap, truncation, neutral),
-        cap=cap,
+        parameters=(descriptor.shape, 2 * cap, truncation, neutral),
         **window,
     )
 
@@ -136,8 +137,7 @@ def _sad(criterion: Sad, pixel: PixelFormat) -> Comparison:
     if criterion.source == "gradient":
         return _of_gradient(GRADIENT_CAP, 2 * GRADIENT_CAP, 0, **window)
     return Comparison(
-        field=COLOUR,
-        shape=unsigned(pixel.size),
+        descriptor=colour(pixel.size),
         pixel_maximum=pixel.channels * pixel.maximum,
         block=ColourDifference,
         parameters=(pixel.channels, pixel.bits),
@@ -175,6 +175,11 @@ class Plan:
         for c in self.comparisons:
             found.setdefault(c.field, set()).update(c.lags)
         return {field: tuple(sorted(rows)) for field, rows in found.items()}
+
+    @property
+    def descriptors(self) -> dict[str, Descriptor]:
+        """All that are compared, by name."""
+        return {c.field: c.descriptor for c in self.comparisons}
 
     @property
     def columns(self) -> tuple[Comparison, ...]:

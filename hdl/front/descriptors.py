@@ -1,46 +1,36 @@
 """What is known of each view's pixels before they are compared."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
-from amaranth.hdl import Cat, Const, Module, Shape, Signal, Value, unsigned
+from amaranth.hdl import Cat, Const, Module, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.front.census import CENSUS_REACH, SQUARES, Census
-from softdepth.hdl.front.gradient import Gradient
+from softdepth.hdl.front.descriptor import COLOUR, Descriptor
 from softdepth.hdl.front.luma import Colour, Luma, rest_bits
 from softdepth.hdl.front.tall_window import TallWindow
 from softdepth.hdl.memory.window import MARKERS, raster_layout
 from softdepth.hdl.post.stage import delayed, window_stage
 
 VIEWS = ("left", "right")
-CENSUS, COLOUR = "census", "colour"
-GRADIENT_REACH = 1
 
 
-def reach_of(field: str) -> int:
-    """Rows and columns around a pixel that its descriptor depends on."""
-    return {CENSUS: CENSUS_REACH, COLOUR: 0}.get(field, GRADIENT_REACH)
+def window_reach(descriptors: Iterable[Descriptor]) -> int:
+    """Rows and columns around a pixel of the window that all are computed from: it repeats the frame's edges
+    at least once."""
+    return max(1, *(each.reach for each in descriptors))
 
 
-def window_reach(fields: Iterable[str]) -> int:
-    """The same of the window that all are computed from, which repeats the frame's edges at least once."""
-    return max(1, *map(reach_of, fields))
-
-
-def view_layout(caps: Mapping[str, int], rows: Mapping[str, Sequence[int]], pixel: int) -> data.StructLayout:
-    """The descriptors of a column in one view: of each field one for each of its ``rows``."""
-    shapes = {
-        CENSUS: unsigned(len(SQUARES)),
-        COLOUR: unsigned(pixel),
-        **{k: Shape.cast(range(-c, c + 1)) for k, c in caps.items()},
-    }
+def view_layout(descriptors: Iterable[Descriptor], rows: Mapping[str, Sequence[int]]) -> data.StructLayout:
+    """The descriptors of a column in one view: of each one for each of its ``rows``."""
+    shapes = {each.name: each.shape for each in descriptors}
     return data.StructLayout({name: data.ArrayLayout(shapes[name], len(rows[name])) for name in rows})
 
 
-def descriptors_latency(fields: Iterable[str]) -> int:
+def descriptors_latency(descriptors: Iterable[Descriptor]) -> int:
     """Clocks from the window to the descriptors."""
-    return Gradient.latency if set(fields) - {CENSUS, COLOUR} else Census.latency
+    return max(1, *(each.latency for each in descriptors))
 
 
 class Descriptors(wiring.Component):
@@ -56,8 +46,8 @@ class Descriptors(wiring.Component):
     Parameters
     ----------
     channels, bits : of a pixel.
-    rows : which descriptors are wanted, by name, and of how many rows above the pixel, ascending.
-    caps : bounds of gradients, by name; ``census`` and ``colour``, the pixel itself, are none of them.
+    descriptors : which are wanted.
+    rows : by their names, of how many rows above the pixel, ascending.
     after : lines behind a frame.
 
     Members
@@ -73,15 +63,16 @@ class Descriptors(wiring.Component):
         bits: int,
         max_width: int,
         *,
+        descriptors: Sequence[Descriptor],
         rows: Mapping[str, Sequence[int]],
-        caps: Mapping[str, int],
         after: int,
         clocks: int = 1,
     ) -> None:
         self._channels, self._bits, self._max_width = channels, bits, max_width
-        self._rows, self._caps, self._after, self._clocks = dict(rows), dict(caps), after, clocks
+        self._rows, self._after, self._clocks = dict(rows), after, clocks
+        self._descriptors = {each.name: each for each in descriptors}
         pixel = channels * bits
-        self.view = view_layout(caps, rows, pixel)
+        self.view = view_layout(descriptors, rows)
         members = {"left": self.view, "right": self.view, "colour": unsigned(pixel)}
         self.layout = data.StructLayout({**members, **dict.fromkeys(MARKERS, 1)})
         super().__init__(
@@ -100,7 +91,8 @@ class Descriptors(wiring.Component):
             m.submodules[f"luma_{name}"] = luma = Luma(self._channels, self._bits)
             m.d.comb += luma.i.eq(self.i.payload.element[k * pixel : (k + 1) * pixel])
             lumas.append(luma)
-        reach = window_reach(self._rows)
+        known = self._descriptors
+        reach = window_reach(known.values())
         rest = rest_bits(self._channels, self._bits)
         rests = [f"{name}_rest" for name in VIEWS] if coloured else []
         element = data.StructLayout(
@@ -110,13 +102,13 @@ class Descriptors(wiring.Component):
             element,
             unsigned(0 if coloured else rest),
             reach=reach,
-            depth=reach + max(max(rows) + reach_of(name) for name, rows in self._rows.items()),
+            depth=reach + max(max(rows) + known[name].reach for name, rows in self._rows.items()),
             after=self._after,
             max_width=self._max_width,
             clocks=self._clocks,
         )
 
-        latency = descriptors_latency(self._rows)
+        latency = descriptors_latency(known.values())
         pixels: dict[tuple[int, str], Value] = {}
 
         def pixel_of(row: int, view_name: str) -> Value:
@@ -136,19 +128,20 @@ class Descriptors(wiring.Component):
             view = Signal(self.view, name=view_name)
             for field, rows in self._rows.items():
                 for k, row in enumerate(rows):
-                    if field == COLOUR:
+                    make = known[field].block
+                    if make is None:
                         m.d.comb += Value.cast(view[field][k]).eq(pixel_of(row, view_name))
                         continue
-                    block = Census(self._bits) if field == CENSUS else Gradient(self._bits, self._caps[field])
+                    block: Any = make(self._bits)
                     m.submodules[f"{field}_{row}_{view_name}"] = block
-                    near, middle = reach_of(field), reach + row
+                    near, middle = known[field].reach, reach + row
                     around = [
                         Value.cast(window.window[r][c][view_name])
                         for r in range(middle + near, middle - near - 1, -1)
                         for c in range(reach - near, reach + near + 1)
                     ]
                     late = delayed(
-                        m, Value.cast(block.o), latency - block.latency, f"{field}_{row}_{view_name}"
+                        m, Value.cast(block.o), latency - known[field].latency, f"{field}_{row}_{view_name}"
                     )
                     m.d.comb += [
                         Value.cast(block.window).eq(Cat(*around)),

@@ -86,13 +86,12 @@ class Front(wiring.Component):
     def _wanted(self) -> Descriptors:
         """The descriptors that the criteria compare."""
         pixel, needs = self._config.pixel, plan(self._config)
-        caps = {c.field: c.cap for c in needs.comparisons if c.cap is not None}
         return Descriptors(
             pixel.channels,
             pixel.bits,
             self._config.max_width,
+            descriptors=tuple(needs.descriptors.values()),
             rows=needs.rows,
-            caps=caps,
             after=needs.below,
             clocks=clocks_of(self._config.steps),
         )

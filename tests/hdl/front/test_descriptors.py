@@ -1,9 +1,12 @@
 """Descriptors of both views, against loops, frames of all sizes back to back; and ends of frames."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from softdepth.hdl.front.descriptor import CENSUS, gradient
 from softdepth.hdl.front.descriptors import Descriptors
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.memory.window import raster_layout
@@ -34,7 +37,8 @@ def test_descriptors(clocks: int, rates: tuple[float, float]) -> None:
                 item = layout.const({"element": word, **markers(y, x, height, width)})
                 sent.append(item.as_value().value)
     rows = {"census": (0, 9), "narrow": (2, 7), "wide": (1,)}
-    dut = Descriptors(3, 8, 16, rows=rows, caps={"narrow": 31, "wide": 100}, after=AFTER, clocks=clocks)
+    known = (CENSUS, replace(gradient(31), name="narrow"), replace(gradient(100), name="wide"))
+    dut = Descriptors(3, 8, 16, descriptors=known, rows=rows, after=AFTER, clocks=clocks)
     found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
     for frame in frames:
         _, height, width, _ = frame.shape

@@ -109,6 +109,8 @@ class Config(Settings):
         data = super().shaping()
         for criterion in data["criteria"]:
             criterion.pop(stored_rows.KEY, None)
+            if criterion.get("running_sums"):  # as it always was: hashes of earlier cores stay
+                del criterion["running_sums"]
         return data | {stored_rows.KEY: self.stored_rows}
 
     # -- derived: parallelism and ranges ---------------------------------------------------------

@@ -41,6 +41,10 @@ def unfit_frame(random: Random, c: Config, *, eof: bool) -> Stream:
             width = c.max_width + random.randrange(1, 4)
         case 2:
             height = c.max_height + random.randrange(1, 4)
+            frame = good_frame(width, height, eof=eof)
+            beyond = width * c.max_height
+            frame[beyond] = frame[beyond]._replace(pause=random.random() < 0.5)
+            return frame
         case 3:
             likely = (0.1, 0.3, 0.1 if eof else 0)
             return [Sent(0, *(random.random() < p for p in likely)) for _ in range(random.randrange(30))]
@@ -98,7 +102,7 @@ def interrupted(random: Random, stream: Stream) -> Stream:
     likely = random.choice((0, 0, 0, 0.05, 0.3))
     behind_a_line = [False, *(pixel.eol or pixel.eof for pixel in stream[:-1])]
     return [
-        pixel._replace(pause=random.random() < likely * (1 if begins else 0.1))
+        pixel._replace(pause=pixel.pause or random.random() < likely * (1 if begins else 0.1))
         for pixel, begins in zip(stream, behind_a_line, strict=True)
     ]
 
@@ -122,8 +126,14 @@ def broken_video(seed: int, c: Config) -> tuple[Stream, int]:
     eof = seed % 2 == 0
     usual = random.randrange(c.min_width, c.max_width + 1), random.choice((1, 2, 2, 3, 3, 4, c.max_height))
     stream: Stream = []
-    if random.random() < 0.3:
-        stream += good_frame(*usual, eof=eof) * 2
+    match random.randrange(10):
+        case 0 | 1 | 2:
+            stream += good_frame(*usual, eof=eof) * 2
+        case 3:  # two that agree, but not in a row, and one of which a height would make an early start
+            frame = good_frame(*usual, eof=eof)
+            stream += [*frame, *frame[: usual[0] - 1], *frame, *good_frame(usual[0], 1, eof=eof)]
+        case 4:
+            stream += unfit_frame(random, c, eof=eof)
     for _ in range(random.randrange(1, 5)):
         stream += some_frames(random, c, usual, eof=eof)
     good = good_frame(*usual, eof=eof)

@@ -61,7 +61,6 @@ def test_a_fault_behind_a_block_is_refuted(fault: Fault, tmp_path: Path) -> None
 
 MUTANTS = {
     "a result is overwritten": (Fill, (1, 1, 4), "~ending & (~full | self.o.ready)", "~ending"),
-    "a line's mark stays": (Fill, (1, 1, 4), "(gives & measured) | ending", "gives & measured"),
 }
 
 

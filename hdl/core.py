@@ -1,5 +1,7 @@
 """The stereo core: pixel pairs in, disparities out."""
 
+from contextlib import nullcontext
+
 from amaranth.hdl import Module
 from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
@@ -11,7 +13,15 @@ from softdepth.hdl.front.front import Front
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.placed import Placed
 from softdepth.hdl.post.stages import post_stages
-from softdepth.hdl.signatures import STEERING, Status, pair_layout, result_layout, settings_ports
+from softdepth.hdl.signatures import (
+    STEERING,
+    Status,
+    pair_layout,
+    result_layout,
+    settings_ports,
+    thresholds_layout,
+)
+from softdepth.hdl.thresholds import told
 from softdepth.hdl.winners.band_winners import BandWinners
 from softdepth.hdl.winners.rooms import winners_of
 from softdepth.hdl.winners.whole_winners import WholeWinners
@@ -60,9 +70,11 @@ class StereoCore(wiring.Component):
         check_built(config)
         self._config, self._takes_settings = config, settings
         self._front = Front(config)
-        self._costs = costs_of(config, self._front.layout)
-        self._winners = winners_of(config, self._costs)
-        self._post = post_stages(config)
+        with told(thresholds_layout(config)) if settings else nullcontext() as thresholds:
+            self._costs = costs_of(config, self._front.layout)
+            self._winners = winners_of(config, self._costs)
+            self._post = post_stages(config)
+        self._thresholds = thresholds or {}
         if isinstance(self._winners, BandWinners):
             self.latency = self._front.latency + self._winners.latency
             self.full_rate_latency = self.latency + self._front.places * (config.steps - 1)
@@ -108,6 +120,7 @@ class StereoCore(wiring.Component):
         settings, post = self.settings, self._config.post
         m.d.comb += self.faults.eq(self._front.faults)
         m.d.comb += [getattr(self._front, name).eq(settings[name]) for name in STEERING]
+        m.d.comb += [signal.eq(settings[name]) for name, signal in self._thresholds.items()]
         if post.check and isinstance(self._winners, WholeWinners):
             m.d.comb += self._winners.tolerance.eq(settings.tolerance)
         island = self._post.get("island")

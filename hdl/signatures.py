@@ -9,7 +9,7 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.spec.config import CONFIDENCE_BITS, Config, PixelFormat
-from softdepth.spec.post import ISLAND_REACH
+from softdepth.spec.post import ISLAND_REACH, LIKE_MAX
 
 COUNTER_BITS = 16
 TOLERANCE_BITS = 4
@@ -58,12 +58,35 @@ STEERING = ("hold", "skip", "clear", "forget")
 """Of the settings, what the first room looks at."""
 
 
+def threshold_limits(config: Config) -> dict[str, tuple[int, int]]:
+    """Least and greatest value of thresholds that are looked at far inside (`softdepth.hdl.thresholds`).
+
+    ``compensated``: SADs above it are compensated. ``truncation``: of the gradient, where there is one.
+    ``like``: of the masked medians, in units of 8-bit values.
+    """
+    limits: dict[str, tuple[int, int]] = {}
+    judged = config.compensation_criterion
+    if config.compensation.reading != "off" and judged is not None:
+        limits["compensated"] = (0, config.maxima[judged])
+    if gradient := config.gradient:
+        cut = min(gradient.truncation, 2 * gradient.cap)
+        limits["truncation"] = (min(gradient.neutral, cut), cut)
+    if config.post.masked_median:
+        limits["like"] = (0, LIKE_MAX)
+    return limits
+
+
+def thresholds_layout(config: Config) -> data.StructLayout:
+    """Of the settings, `threshold_limits`."""
+    return data.StructLayout({name: range(high + 1) for name, (_, high) in threshold_limits(config).items()})
+
+
 def settings_layout(config: Config) -> data.StructLayout:
     """What a core that takes settings is told while it runs; thresholds where the configuration has them.
 
     ``hold``: no frame begins: its first pixel waits. ``skip``: frames that begin are dropped whole.
     ``clear``: the counters of broken input begin at 0. ``forget``: nothing is known any more of how the
-    source ends its frames. The others are `Post`'s, and may change while no frame is inside.
+    source ends its frames. The others are the configuration's, and may change while no frame is inside.
     """
     post = config.post
     return data.StructLayout(
@@ -71,6 +94,7 @@ def settings_layout(config: Config) -> data.StructLayout:
             **dict.fromkeys(STEERING, 1),
             **({"tolerance": unsigned(TOLERANCE_BITS)} if post.check else {}),
             **({"island": unsigned(ISLAND_BITS)} if post.island else {}),
+            **thresholds_layout(config).members,
         }
     )
 

@@ -3,7 +3,7 @@
 from amaranth.hdl import Cat, Value
 
 
-def alike(a: Value, b: Value, channels: int, like: int) -> Value:
+def alike(a: Value, b: Value, channels: int, like: Value | int) -> Value:
     """Whether no channel of two colours differs by ``like`` or more, without a register.
 
     Where ``like`` is a power of two, the difference's upper bits tell, all alike, but for ``-like`` itself:
@@ -11,11 +11,11 @@ def alike(a: Value, b: Value, channels: int, like: int) -> Value:
     """
     a, b = Value.cast(a), Value.cast(b)
     bits = len(a) // channels
-    low = like.bit_length() - 1
+    low = like.bit_length() - 1 if isinstance(like, int) else 0
     near: list[Value] = []
     for start in range(0, len(a), bits):
         difference = a[start : start + bits] - b[start : start + bits]
-        if like != 1 << low:
+        if not isinstance(like, int) or like != 1 << low:
             near.append((difference < like) & (difference > -like))
         elif low < bits:
             upper, lower = difference[low:], difference[:low]

@@ -13,7 +13,7 @@ from softdepth.hdl.axi.tdata import extended, outcome_layout
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.post.layout import is_measured
-from softdepth.hdl.signatures import Faults, Status, settings_layout
+from softdepth.hdl.signatures import Faults, Status, settings_layout, threshold_limits
 from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
@@ -30,6 +30,16 @@ FLAGS = {
     "missing_starts": "flags_missing_start",
 }
 """The flag that each fault raises."""
+
+
+THRESHOLDS = {
+    "tolerance": "check_tolerance",
+    "island": "island_least",
+    "compensated": "compensation_threshold",
+    "truncation": "truncation_value",
+    "like": "likeness_like",
+}
+"""The register's field behind each threshold that a core can be told."""
 
 
 class AxiCore(wiring.Component):
@@ -119,9 +129,7 @@ class AxiCore(wiring.Component):
                 given.flags_skew.eq(source.waits),
                 given.alignment_losses_count.eq(source.losses),
             ]
-        thresholds = {"tolerance": "check_tolerance", "island": "island_least"}
-        for name in settings_layout(self._config).members.keys() & thresholds.keys():
-            m.d.comb += core.settings[name].eq(applied[thresholds[name]])
+        self._thresholds(m, applied)
         self._give(m, applied, frames)
 
         m.d.comb += [
@@ -160,6 +168,15 @@ class AxiCore(wiring.Component):
         no_longer = applied.geometry_height.any() & ~held.geometry_height.any()
         m.d.comb += self._core.settings.forget.eq(taken & no_longer)
         return applied
+
+    def _thresholds(self, m: Module, applied: data.View) -> None:
+        """What the core is told of registers, held within what it can be told."""
+        settings, limits = self._core.settings, threshold_limits(self._config)
+        for name, field in THRESHOLDS.items():
+            if name in settings_layout(self._config).members:
+                value: Value = applied[field]
+                low, high = limits.get(name, (0, (1 << len(value)) - 1))
+                m.d.comb += settings[name].eq(Mux(value < low, low, Mux(value > high, high, value)))
 
     def _give(self, m: Module, applied: data.View, frames: Frames) -> None:
         """Results as they leave."""

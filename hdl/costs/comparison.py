@@ -1,14 +1,16 @@
 """What a criterion compares that is summed down columns, and over which rows and columns it sums."""
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from amaranth.hdl import Shape
+from amaranth.hdl import Shape, Signal
 from amaranth.lib import wiring
 
 from softdepth.hdl.costs.criteria.unlikeness import ColourDifference, GradientDifference, Hamming
 from softdepth.hdl.front.descriptor import CENSUS, Descriptor, colour, gradient
+from softdepth.hdl.thresholds import threshold
 from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.criteria import (
     GRADIENT_CAP,
@@ -39,6 +41,7 @@ class Comparison:
     dx : columns from the pixel to the window's centre, to the right.
     spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
     own_shift : bits by which the value is more than the sum.
+    limit : of its differences, where that may be told (`softdepth.hdl.thresholds`).
     running : sums down the columns are kept, of which a row enters and one leaves.
     lags : rows above the newest of those that are compared, ascending: of a running sum the one that enters
         and the one that leaves, else all that are summed; by `plan`.
@@ -55,6 +58,7 @@ class Comparison:
     spacing: int = 0
     like: int = 0
     own_shift: int = 0
+    limit: Signal | None = dataclasses.field(default=None, compare=False)
     running: bool = True
     lags: tuple[int, ...] = ()
 
@@ -81,7 +85,8 @@ class Comparison:
     @property
     def column(self) -> tuple[Any, ...]:
         """What its columns are made of: criteria that agree in this share their sums."""
-        return self.field, self.lags, self.running, self.block, self.parameters
+        told = self.limit is not None
+        return self.field, self.lags, self.running, self.block, self.parameters, told
 
     def differences(self) -> wiring.Component:
         """A block that compares two descriptors."""
@@ -114,6 +119,7 @@ def _gradient(criterion: Gradient, pixel: PixelFormat) -> Comparison:
         criterion.cap,
         criterion.truncation,
         criterion.neutral,
+        limit=threshold("truncation", None),
         rows=criterion.rows,
         reach=criterion.columns // 2,
         running=criterion.running_sums,

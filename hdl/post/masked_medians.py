@@ -31,6 +31,7 @@ class MaskedMedians(wiring.Component):
     Parameters
     ----------
     value_bits, colour_bits, channels : of a result, and into how many equal parts its colour falls.
+    like : a number, or a signal that may change between frames.
     clocks : 1 or 2 that a pixel takes at least. With two, memory and its multiplexers are smaller.
 
     Members
@@ -47,7 +48,7 @@ class MaskedMedians(wiring.Component):
         max_width: int,
         *,
         reach: int,
-        like: int,
+        like: Value | int,
         holes: bool = False,
         clocks: int = 1,
     ) -> None:

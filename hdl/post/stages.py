@@ -7,6 +7,7 @@ from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
+from softdepth.hdl.thresholds import threshold
 from softdepth.spec.config import Config
 from softdepth.spec.post import MEDIAN_REACH
 
@@ -55,7 +56,7 @@ def masked_medians_of(config: Config) -> MaskedMedians:
         pixel.channels,
         config.max_width,
         reach=post.masked_median,
-        like=post.like << (pixel.bits - LIKE_BITS),
+        like=threshold("like", post.like) << (pixel.bits - LIKE_BITS),
         holes=not post.fill,
         clocks=min(config.steps, 2),
     )

@@ -143,6 +143,12 @@ class Config(Settings):
         return max((c.stored_rows for c in self.sads), default=0)
 
     @property
+    def gradient(self) -> Gradient | None:
+        """The gradient among the criteria, where there is one and no more."""
+        found = [c for c in self.criteria if isinstance(c, Gradient)]
+        return found[0] if len(found) == 1 else None
+
+    @property
     def whole_frame(self) -> bool:
         """Every pixel has a result: no criterion has a border band."""
         return all(c.whole_frame for c in self.criteria)

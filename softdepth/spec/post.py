@@ -8,6 +8,8 @@ from softdepth.spec.frozen import Frozen
 
 ISLAND_REACH = 2
 """Rows and columns around a pixel that the island test looks at: 5x5."""
+LIKE_MAX = 256
+"""With it, all colours are alike."""
 MEDIAN_REACH = 2
 """The same of the median."""
 
@@ -39,7 +41,7 @@ class Post(Frozen):
     fill: bool = False
     median: Literal[0, 5] = 0
     masked_median: int = Field(default=0, ge=0, le=15)
-    like: int = Field(default=32, ge=1, le=256)
+    like: int = Field(default=32, ge=1, le=LIKE_MAX)
     confidence: bool = False
 
     @model_validator(mode="after")

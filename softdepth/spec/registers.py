@@ -13,6 +13,8 @@ from softdepth.spec.config import Config
 
 SOURCE = Path(__file__).with_suffix(".rdl")
 WORD_BITS = 32
+THRESHOLD_BITS = 24
+"""Of the compensating rule's, in its register: no SAD is larger."""
 UNSURE = 7
 """The code of a measurement whose confidence is below the floor; no `Validity` has it."""
 
@@ -62,6 +64,7 @@ def definitions(config: Config, options: AxiOptions = DEFAULT) -> dict[str, str]
     post = config.post
     major, minor, patch = (int(part) for part in version("softdepth").split(".")[:3])
     number = int(config.hash, 16)
+    compensated = min(config.compensation.threshold, (1 << THRESHOLD_BITS) - 1)
     values = {
         "MAJOR": major,
         "MINOR": minor,
@@ -83,6 +86,9 @@ def definitions(config: Config, options: AxiOptions = DEFAULT) -> dict[str, str]
         "CONFIDENCE": post.confidence,
         "TOLERANCE": post.tolerance if post.check else None,
         "ISLAND": post.island or None,
+        "COMPENSATION": compensated if config.compensation.reading != "off" else None,
+        "TRUNCATION": config.gradient.truncation if config.gradient else None,
+        "LIKENESS": post.like if post.masked_median else None,
     }
     values |= {
         name: int(value) for name, value in optional.items() if value is not None and value is not False

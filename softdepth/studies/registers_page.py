@@ -14,9 +14,12 @@ from softdepth.templates import render
 
 DOCUMENT = Path("docs/axi.md")
 PART = "registers"
-CONFIG = Config.preset("robust")
+CONFIGS = (
+    Config.preset("robust"),
+    Config.preset("paper").override(["compensation.reading=top"]),
+)
 OPTIONS = AxiOptions(inputs="two", left=True)
-"""A preset and ports whose core has every register."""
+"""What cores have, each, all of whose registers are there."""
 
 
 def page() -> str:
@@ -31,10 +34,16 @@ def page() -> str:
             "reset": field.reset if field.writable and not field.pulses else "",
             "meaning": _meaning(register, field),
         }
-        for register in registers(CONFIG, OPTIONS)
+        for register in _registers()
         for field in register.fields
     ]
     return render("softdepth.studies", "registers.md", rows=rows)
+
+
+def _registers() -> list[Register]:
+    """Of all `CONFIGS`, each once, in the order of their addresses."""
+    found = {each.name: each for config in reversed(CONFIGS) for each in registers(config, OPTIONS)}
+    return sorted(found.values(), key=lambda each: each.address)
 
 
 def _bits(field: RegisterField) -> str:

@@ -31,11 +31,19 @@ def test_random_frames_and_registers_in_mid_frame(tmp_path: Path) -> None:
         middle = random.randrange(1, height)
         steps.lines(left, right, range(middle))
         tolerance, island = random.randrange(3), random.randrange(12)
-        config = SMALL.override([f"post.tolerance={tolerance}", f"post.island={island}"])
+        truncation, like = random.randrange(2, 17), random.choice((1, 5, 20, 33, 256))
+        config = SMALL.override(
+            [
+                *(f"post.tolerance={tolerance}", f"post.island={island}", f"post.like={like}"),
+                f"criteria.0.truncation={truncation}",
+            ]
+        )
         floor, invalid = random.choice((0, 10, 60)), random.choice((0, 0xFFFF, 0x7FF))
         for name, value in (
             ("CHECK", tolerance),
             ("ISLAND", island),
+            ("TRUNCATION", truncation),
+            ("LIKENESS", like),
             ("CONFIDENCE", floor),
             ("INVALID", invalid),
         ):

@@ -25,17 +25,27 @@ def results(left: Image, right: Image) -> NDArray[np.uint64]:
 
 
 def test_views_that_come_as_they_like(tmp_path: Path) -> None:
-    """Random idle in each, and clocks of random periods: nothing is lost, doubled, or paired with another."""
+    """Random idle in each, and clocks of random periods: nothing is lost, doubled, or paired with another.
+
+    The compensating rule's threshold is written in mid-frame, where the frame's start has left the queues.
+    """
     random = Random(2)
     steps, wanted = Steps(PAPER), []
-    height = 0
+    config, height, differ = CONFIG, 0, 0
     for number in range(6):
-        width = random.randrange(CONFIG.min_width, CONFIG.max_width + 1)
-        height = random.choice([n for n in range(2, CONFIG.max_height + 1) if n != height])
+        width = random.randrange(CONFIG.max_width - 8, CONFIG.max_width + 1)
+        height = random.choice([n for n in range(5, CONFIG.max_height + 1) if n != height])
         left, right = textured(height, width, number)
-        wanted.append(results(left, right))
-        steps.lines(left, right, range(height))
+        wanted.append(expected(left, right, config))
+        differ += not np.array_equal(wanted[-1], results(left, right))
+        middle = PAPER.options.skew + 2
+        steps.lines(left, right, range(middle))
+        threshold = random.choice((0, 100, 2000, 4000))
+        config = CONFIG.override([f"compensation.threshold={threshold}"])
+        steps.write("COMPENSATION", threshold)
+        steps.lines(left, right, range(middle, height))
     steps.lines(*textured(2, CONFIG.min_width, 99), range(2))
+    assert differ >= 2
     out = run(steps, tmp_path, seed=5, idle=0.3, pressure=0.2)
     assert len(out.frames) == len(wanted)
     for number, (want, got) in enumerate(zip(wanted, out.frames, strict=False)):

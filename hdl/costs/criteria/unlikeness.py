@@ -52,6 +52,7 @@ class GradientDifference(wiring.Component):
 
     Members
     -------
+    truncation : as the parameter, until it is set to a signal that is no greater and may change.
     a, b : gradients of this shape.
     absent, inside, o : as in `Hamming`.
     """
@@ -59,8 +60,9 @@ class GradientDifference(wiring.Component):
     latency = 2
 
     def __init__(self, shape: Shape, largest: int, truncation: int, neutral: int) -> None:
-        self._truncation, self._neutral, self._largest = truncation, neutral, largest
+        self._neutral, self._largest = neutral, largest
         self.maximum = max(min(truncation, largest), neutral)
+        self.truncation: Value | int = truncation
         super().__init__(
             {
                 "a": In(shape),
@@ -80,8 +82,8 @@ class GradientDifference(wiring.Component):
         folded = bits ^ top.replicate(len(bits))
         magnitude = folded + top
         cut: Value = magnitude
-        if self._truncation < self._largest:
-            cut = Mux(magnitude >= self._truncation, self._truncation, magnitude)
+        if not isinstance(self.truncation, int) or self.truncation < self._largest:
+            cut = Mux(magnitude >= self.truncation, self.truncation, magnitude)
         held = Signal(range(self.maximum + 1), reset_less=True)
         m.d.sync += held.eq(Mux(self.inside, Mux(self.absent, self._neutral, cut), 0))
         m.d.comb += self.o.eq(held)

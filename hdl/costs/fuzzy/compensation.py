@@ -5,6 +5,7 @@ from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.costs.criteria import criteria_layout
+from softdepth.hdl.thresholds import threshold
 from softdepth.spec.config import LITERAL_INPUT, Config
 
 
@@ -24,6 +25,7 @@ class Compensation(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
+        self._threshold = threshold("compensated", config.compensation.threshold)
         self.maxima = [
             max(maximum, _replacement(config, c.label_bits))
             for c, maximum in zip(config.criteria, config.maxima, strict=True)
@@ -42,7 +44,7 @@ class Compensation(wiring.Component):
         replace = Signal()
         if rule.reading != "off":
             seen = self.i[f"s{self._config.compensation_criterion}"]
-            m.d.comb += replace.eq(self.near & (seen > rule.threshold))
+            m.d.comb += replace.eq(self.near & (seen > self._threshold))
         output = Signal(self.o.shape(), reset_less=True)
         for i, criterion in enumerate(self._config.criteria):
             replacement = _replacement(self._config, criterion.label_bits)

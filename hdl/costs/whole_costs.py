@@ -15,6 +15,7 @@ from softdepth.hdl.costs.whole_lane import (
     LaneDifferences,
     LaneSums,
     inside_layout,
+    inside_of,
     row_of,
     rows_layout,
     supports_layout,
@@ -178,10 +179,10 @@ class WholeCosts(wiring.Component):
         border = self._border(m, slots)
         centre = self._centre(m, colour, first[column_time])
         rows_inside = Signal(inside_layout(plan_))
-        for k, c in enumerate(plan_.columns):
+        for running, lag in sorted({(c.running, lag) for c in plan_.columns for lag in c.lags}):
             # Where a sum runs on it is held back beyond the frame's columns, and not its differences.
-            within = [rows_of[lag] if c.running else rows_of[lag] & column_inside for lag in c.lags]
-            m.d.comb += rows_inside[str(k)].eq(Cat(within))
+            within = rows_of[lag] if running else rows_of[lag] & column_inside
+            m.d.comb += rows_inside[inside_of(lag, running)].eq(within)
         differences = []
         for k in range(config.lanes):
             m.submodules[f"differences_{k}"] = lane = LaneDifferences(plan_)

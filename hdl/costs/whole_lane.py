@@ -26,9 +26,14 @@ def rows_layout(plan: Plan) -> data.StructLayout:
     return data.StructLayout({row_of(c.field, lag): c.shape for c in plan.comparisons for lag in c.lags})
 
 
+def inside_of(lag: int, running: bool) -> str:
+    """The member of `inside_layout` for differences of this row, in sums that run on or in others."""
+    return f"{'running' if running else 'anew'}_{lag}"
+
+
 def inside_layout(plan: Plan) -> data.StructLayout:
-    """Of each column that is summed which of its rows lie in the frame."""
-    return data.StructLayout({str(k): len(c.lags) for k, c in enumerate(plan.columns)})
+    """Of each row that is compared, whether it lies in the frame: each bit once, as columns share rows."""
+    return data.StructLayout({inside_of(lag, c.running): 1 for c in plan.columns for lag in c.lags})
 
 
 def pixels_layout(plan: Plan) -> data.StructLayout:
@@ -95,7 +100,7 @@ class LaneDifferences(wiring.Component):
                     difference.a.eq(self.left[row]),
                     difference.b.eq(self.right[row]),
                     difference.absent.eq(self.absent),
-                    difference.inside.eq(self.inside[str(k)][place]),
+                    difference.inside.eq(self.inside[inside_of(lag, comparison.running)]),
                     self.o[str(k)][place].eq(difference.o),
                 ]
         return m

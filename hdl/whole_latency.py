@@ -35,7 +35,8 @@ class WholeLatency:
     -------
     rows, column : the last pixel that line y's results need is at (column, y + rows).
     clocks : from the clock in which that pixel is taken to that in which the line's last result can be,
-        where pixels come slowly and that result is a measurement.
+        where pixels come slowly and that result is a measurement. Exact with a left-right check; without one
+        it may be a few clocks off, as a line's last slots then follow each other without waiting for pixels.
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
     ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.

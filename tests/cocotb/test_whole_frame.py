@@ -19,7 +19,7 @@ from softdepth.sim.job import Job
 from softdepth.sim.stalls import Stalls
 from softdepth.sim.stream import run_stream
 from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results, unpack_status
-from softdepth.spec.config import Config
+from softdepth.spec.config import OPERATORS, Config
 from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import noise, random_whole_config, textured, whole_frames_for
 from tests.cocotb.test_damage import CASES, no_start
@@ -28,7 +28,22 @@ ROBUST = Config.preset("robust").override(["disparities=8", "lanes=4", "max_widt
 PAIRS = [textured(14, 33, 1), noise(6, 20, 2), textured(3, 4, 3), textured(1, 5, 4), textured(9, 12, 5)]
 
 
-@pytest.mark.parametrize("seed", range(6))
+def test_a_few_seeds_have_every_kind() -> None:
+    drawn = [random_whole_config(seed) for seed in range(12)]
+    assert {c.operator for c in drawn if c.cost == "fuzzy"} == set(OPERATORS)
+    for some in (drawn[:6], drawn[6:]):
+        assert {c.cost for c in some} == {"sum", "fuzzy"}
+        assert {c.pixel.value for c in some} == {"rgb8", "gray8", "gray10", "gray12"}
+        assert {np.sign(c.min_disparity) for c in some} == {-1, 0, 1}
+        assert {c.reference for c in some} == {"left", "right"}
+        assert {each.kind for c in some for each in c.criteria} == {"census", "gradient", "sad"}
+        assert {sad.source for c in some for sad in c.sads} == {"colour", "gradient"}
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [*range(6), *(pytest.param(seed, marks=[pytest.mark.slow, pytest.mark.full]) for seed in range(6, 12))],
+)
 def test_random_configuration(seed: int, exact: Exact) -> None:
     config = random_whole_config(seed)
     pairs = whole_frames_for(config, seed)

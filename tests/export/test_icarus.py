@@ -147,9 +147,11 @@ FULL = [pytest.mark.full, pytest.mark.slow]
         pytest.param("robust-small", LESS, marks=FULL),
         pytest.param("robust", ["post.masked_median=0", "pixel=gray8"], marks=FULL),
         pytest.param("robust-small", [*LESS[2:], "lanes=1", "post.fraction_bits=0"], marks=FULL),
+        pytest.param("sad", ["post.check=true", "post.island=4"], marks=FULL),
+        pytest.param("sad", ["post.check=true"], marks=FULL),
     ],
 )
-def test_latencies_without_a_border_band(preset: str, changes: list[str], tmp_path: Path) -> None:
+def test_latencies_of_sums_down_columns(preset: str, changes: list[str], tmp_path: Path) -> None:
     """A line's last result, from the pixel that the head names, where pixels come slowly.
 
     The first core has every stage; the others leave out those that change what a stage waits for.
@@ -163,7 +165,8 @@ def test_latencies_without_a_border_band(preset: str, changes: list[str], tmp_pa
         core.verilog, pixels([pair], config), tmp_path, gap=(width + 15) * config.steps, patience=2000
     )
     check(seen, [pair], config)
-    measured = disparity(*pair, config).code[:, -1] < Validity.BORDER
+    # What is filled waits for other results of its line.
+    measured = (disparity(*pair, config).code[:, -1] < Validity.BORDER) | (not config.post.fill)
     times = {
         seen.given[y * width + width - 1] - seen.taken[(y + needs["rows"]) * width + needs["column"]]
         for y in range(height - needs["rows"])

@@ -151,14 +151,14 @@ def test_sigterm_leaves_nothing_half_made(files, tmp_path):
     environment = {**os.environ, "SOFTDEPTH_CACHE": str(tmp_path / "cache"), "TMPDIR": str(temporary)}
     with subprocess.Popen([*PROGRAM, *map(str, arguments), "--lanes=4"], env=environment) as parent:
         limit = time.monotonic() + 60
-        while not any(temporary.glob("softdepth-*/obj")):  # the compiler is at work
+        family: list[psutil.Process] = []
+        while not (family and any(temporary.glob("softdepth-*/obj"))):  # the compiler is at work
             assert time.monotonic() < limit
             assert parent.poll() is None
             time.sleep(0.05)
-        family = psutil.Process(parent.pid).children(recursive=True)
+            family = psutil.Process(parent.pid).children(recursive=True)
         parent.terminate()
         assert parent.wait(20) == ending.SIGNALLED + signal.SIGTERM
-    assert family
     _, alive = psutil.wait_procs(family, timeout=10)
     assert not alive
     assert not out.parent.exists()

@@ -35,8 +35,8 @@ def join_columns(
     valid, place, begins, outside : as of `RunningSums`.
     summed : a step's column sums are there.
     """
-    for base in range(0, config.lanes, GROUP):
-        lanes = range(base, min(base + GROUP, config.lanes))
+    for base in range(0, len(sums), GROUP):
+        lanes = range(base, min(base + GROUP, len(sums)))
         kept = [(k, j, c) for k in lanes for j, c in enumerate(plan.columns) if c.running]
         if kept:
             m.submodules[f"running_{base}"] = running = RunningSums(

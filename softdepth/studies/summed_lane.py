@@ -4,8 +4,8 @@ from amaranth.hdl import Module
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.costs.column_groups import join_columns
 from softdepth.hdl.costs.comparison import plan
-from softdepth.hdl.costs.criteria.running_sums import RunningSums
 from softdepth.hdl.costs.whole_lane import LaneDifferences, LaneSums
 from softdepth.spec.config import Config
 
@@ -15,39 +15,43 @@ class SummedLane(wiring.Component):
 
     Members
     -------
-    Those of `LaneDifferences`, `RunningSums` and `LaneSums` that come from without, and
+    Those of `LaneDifferences`, `join_columns` and `LaneSums` that come from without, and
     o : the candidate's cost.
     """
 
     def __init__(self, config: Config) -> None:
-        found = plan(config)
-        self._differences = LaneDifferences(found)
-        self._running = RunningSums(
-            [c.column_maximum for c in found.columns],
-            [c.pixel_maximum for c in found.columns],
-            config.places,
-        )
-        self._sums = LaneSums(config, found)
+        self._config, self._plan = config, plan(config)
+        self._differences = LaneDifferences(self._plan)
+        self._sums = LaneSums(config, self._plan)
         outer = {
-            self._differences: ("left", "right", "absent", "new_inside", "old_inside"),
-            self._running: ("valid", "place", "begins", "outside"),
-            self._sums: ("supports", "near"),
+            self._differences: ("left", "right", "absent", "inside"),
+            self._sums: ("full", "supports", "near"),
         }
         self._outer = [(block, name) for block, names in outer.items() for name in names]
         ports = {name: In(block.signature.members[name].shape) for block, name in self._outer}
-        super().__init__({**ports, "sums": In(1), "o": Out(self._sums.layout)})
+        flags = {name: In(1) for name in ("valid", "begins", "outside", "summed", "line_begins")}
+        super().__init__({**ports, **flags, "place": In(range(config.places)), "o": Out(self._sums.layout)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.differences = differences = self._differences
-        m.submodules.running = running = self._running
         m.submodules.sums = sums = self._sums
         m.d.comb += [getattr(block, name).eq(getattr(self, name)) for block, name in self._outer]
+        join_columns(
+            m,
+            self._config,
+            self._plan,
+            [differences],
+            [sums],
+            valid=self.valid,
+            place=self.place,
+            begins=self.begins,
+            outside=self.outside,
+            summed=self.summed,
+        )
         m.d.comb += [
-            running.new.as_value().eq(differences.new.as_value()),
-            running.old.as_value().eq(differences.old.as_value()),
-            sums.valid.eq(self.sums),
-            sums.columns.as_value().eq(running.o.as_value()),
+            sums.valid.eq(self.summed),
+            sums.begins.eq(self.line_begins),
             self.o.eq(sums.o),
         ]
         return m

@@ -11,9 +11,6 @@
 
 #include "Vtop.h"
 #include "verilated.h"
-#if VM_COVERAGE
-#include "verilated_cov.h"
-#endif
 
 namespace {
 
@@ -122,14 +119,6 @@ class Bench {
         return "";
     }
 
-    void cover(const char* path) {
-#if VM_COVERAGE
-        context.coveragep()->write(path);
-#else
-        (void)path;
-#endif
-    }
-
     uint64_t clocks = 0;
 
   private:
@@ -166,7 +155,6 @@ int main(int count, char** words) {
         std::printf("%llu %zu %llu %s\n", (unsigned long long)mutant, number, (unsigned long long)bench.clocks,
                     wrong.c_str());
         std::fflush(stdout);
-        if (const char* path = std::getenv("SOFTDEPTH_COVERAGE")) bench.cover(path);
     }
     return 0;
 }

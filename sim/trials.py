@@ -4,7 +4,6 @@ For regressions of many designs that differ a little, such as one netlist with f
 `softdepth.sim.frames` is for pictures.
 """
 
-import os
 import re
 import subprocess
 import tempfile
@@ -20,10 +19,8 @@ from softdepth.spec.errors import ToolError
 FAULTS = "mutant"
 """The input that selects a fault, where a design has it."""
 
-COVERAGE_VARIABLE = "SOFTDEPTH_COVERAGE"
 LONGEST = 64
 """Bits of a payload that the bench can drive."""
-
 
 WAITS = 1025
 """Of a sink: not ready before there is an offer."""
@@ -88,14 +85,12 @@ class Verdict(NamedTuple):
     clocks: int
 
 
-def run_trials(
-    verilog: str, trials: Sequence[Trial], faults: Sequence[int] = (), *, coverage: Path | None = None
-) -> list[Verdict]:
+def run_trials(verilog: str, trials: Sequence[Trial], faults: Sequence[int] = ()) -> list[Verdict]:
     """Run all trials one after the other on one simulated core, up to the first that fails.
 
     With `faults`, once for each value of the design's input `FAULTS`: a verdict each, in that order.
-    Registers and memories without a reset begin with random bits. With `coverage`, Verilator's counts of
-    lines and toggles are left there. Raises `ToolError` for a failed build or a bench that stops.
+    Registers and memories without a reset begin with random bits. Raises `ToolError` for a failed build or a
+    bench that stops.
     """
     bits = {name: int(top) + 1 for top, name in re.findall(r"^\s*input \[(\d+):0\] (\w+);", verilog, re.M)}
     longest = bits["i_payload"]
@@ -106,18 +101,14 @@ def run_trials(
         )
     defines = [f"#define I_MASK {(1 << longest) - 1}ULL", *(["#define MUTANTS"] if FAULTS in bits else [])]
     # Where a fault turns one bit by another, a word depends on itself, its bits do not.
-    flags = ["-Wno-UNOPTFLAT", "--x-initial", "unique"]
-    if coverage:
-        flags += ["--coverage-line", "--coverage-toggle"]
+    flags = ("-Wno-UNOPTFLAT", "--x-initial", "unique")
     text = resources.files("softdepth.sim").joinpath("trials.cpp").read_text()
-    program = build(verilog, bench=Bench("\n".join([*defines, text]), tuple(flags)))
+    program = build(verilog, bench=Bench("\n".join([*defines, text]), flags))
     with tempfile.TemporaryDirectory(prefix="softdepth-trials-") as name:
         job = Path(name) / "trials"
         job.write_text("\n".join(trial.text() for trial in trials))
-        environment = {**os.environ, **({COVERAGE_VARIABLE: str(coverage)} if coverage else {})}
         done = subprocess.run(
             [str(program.folder / TOP), str(job), *map(str, faults)],
-            env=environment,
             capture_output=True,
             text=True,
             check=False,

@@ -34,11 +34,6 @@ def pixel_of(bits: Value, pixel: PixelFormat) -> Value:
     return Cat(bits.word_select(order.index(k), pixel.bits) for k in range(pixel.channels))
 
 
-def in_order(value: Value, pixel: PixelFormat) -> Value:
-    """A pixel in UG934's order, of one with red lowest."""
-    return Cat(value.word_select(k, pixel.bits) for k in CHANNELS[pixel.channels])
-
-
 def outcome_layout(config: Config, *, left: bool = False) -> data.StructLayout:
     """``tdata`` of a result, byte by byte, lowest first; on request with its pixel of the left view."""
     return data.StructLayout(

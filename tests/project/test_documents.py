@@ -1,5 +1,6 @@
 """The documents name what is there, and what they name is there."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -13,6 +14,7 @@ import pytest
 from pydantic import BaseModel
 
 from softdepth.cli.app import app
+from softdepth.hdl.built import missing
 from softdepth.run.report import FILES, Accuracy, Report, Scored
 from softdepth.sim.frames import FramesResult
 from softdepth.spec.config import PRESETS, Census, Compensation, Config, Gradient, Post, Sad
@@ -59,6 +61,15 @@ def test_every_configuration_key_is_documented(project, heading, model: type[Bas
 def test_every_preset_is_documented(project):
     text = (project / "docs" / "configuration.md").read_text()
     assert table_keys(section(text, "## Presets")) == set(PRESETS)
+
+
+def test_every_preset_has_its_row_where_presets_are_measured(project):
+    built = [name for name in PRESETS if not missing(Config.preset(name))]
+    assert set(json.loads((project / "docs" / "benchmarks.json").read_text())["presets"]) == set(built)
+    reading = (project / "docs" / "flow.md").read_text().split("<!-- reading:end -->")[0]
+    for name in built:
+        assert f"\n| {name} | " in (project / "docs" / "benchmarks.md").read_text(), name
+        assert f"\n| `{name}`, " in reading, name
 
 
 def test_the_example_configuration_is_valid(project, tmp_path):

@@ -1,9 +1,10 @@
 """Deals descriptors out as slots of steps, with what is needed beyond a line's and a frame's end."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal
+from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.memory.window import MARKERS
 
 
@@ -56,7 +57,7 @@ class Slots(wiring.Component):
     credit : a slot may begin in this clock.
     begins : one does.
     valid, first, last, step : a step is taken; registered, one clock after ``begins``.
-    slot : `slot_layout`, through all steps.
+    slot : `slot_layout`, through all steps; of no meaning without one.
     """
 
     latency = 1
@@ -94,108 +95,129 @@ class Slots(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         item = self.i.payload
+        beyond = Countdown(m, self._right, "beyond")  # slots to the right of the frame
+        below = Countdown(m, self._below, "below")  # lines below the frame, this one included
+        draining = Countdown(m, self._drain, "draining")
+        unripe = Countdown(m, self._below, "unripe")  # rows of the frame up to the first that has a result
         x = Signal(range(self._max_width + self._right))
-        beyond = Signal(range(self._right + 1))  # slots to the right of the frame still to come
-        below = Signal(range(self._below + 1))  # lines below the frame still to come, this one included
-        draining = Signal(range(self._drain + 1))
-        age = Signal(range(self._below + 1))  # rows of the frame so far, up to the first that has a result
+        # Of ``x``: the line's first, from the first pixel that is judged on, and the first that counts.
+        at_first, judging, at_start = (
+            Signal(name=name, init=at == 0)
+            for name, at in (
+                ("at_first", 0),
+                ("judging", self._right),
+                ("at_start", self._right + self._first),
+            )
+        )
         ended = Signal()
         rows = Signal(self._history + 1)
         top = Signal()
         damaged = Signal()
         fresh = Signal()
 
+        # Registers alone decide, but for what is offered and the credit, which are registers elsewhere.
         going = Signal()  # steps of this slot are left after this clock
-        free = Signal()
-        own, flushed, outside, drained = Signal(), Signal(), Signal(), Signal()
         m.d.comb += [
-            free.eq(~going & self.credit),
-            drained.eq(free & (draining != 0)),
-            outside.eq(free & (draining == 0) & (beyond != 0)),
-            self.i.ready.eq(free & (draining == 0) & (beyond == 0)),
-            own.eq(self.i.valid & self.i.ready & (below == 0)),
-            flushed.eq(self.i.valid & self.i.ready & (below != 0)),
-            self.begins.eq(own | flushed | outside | drained),
+            self.i.ready.eq(self.credit & ~going & ~draining.some & ~beyond.some),
+            self.begins.eq(self.credit & ~going & (draining.some | beyond.some | self.i.valid)),
         ]
 
-        inside = Signal()
+        # What a slot is if one begins.
+        own = Signal()  # of a pixel of the frame
+        inside = Signal()  # the same, or below it
         at_end = Signal()  # the line's last pixel, or what stands for it below the frame
         over = Signal()  # the line's last slot
         starts = Signal()
         m.d.comb += [
+            inside.eq(~draining.some & ~beyond.some),
+            own.eq(inside & ~below.some),
             starts.eq(own & item.sof),
-            inside.eq(own | flushed),
             at_end.eq(inside & item.eol),
-            over.eq((at_end & (self._right == 0)) | (outside & (beyond == 1))),
+            over.eq(beyond.last if self._right else at_end),
         ]
         rows_now = Signal.like(rows)
-        age_now = Signal.like(age)
         ended_now = Signal()
+        emits = Signal()
+        final = Signal()
         m.d.comb += [
             rows_now.eq(Mux(starts, 1, rows)),
-            age_now.eq(Mux(starts, 0, age)),
             ended_now.eq(Mux(own, item.eof, ended)),
+            emits.eq(~draining.some & judging & Mux(starts, self._below == 0, ~unripe.some)),
+            final.eq(below.last | (ended_now if self._below == 0 else 0)),
         ]
-        slot = Signal(self.layout, reset_less=True)
-        emits = Signal()
-        m.d.comb += emits.eq(~drained & (x >= self._right) & (age_now == self._below))
-        final = Signal()
-        m.d.comb += final.eq((below == 1) | (ended_now if self._below == 0 else 0))
 
-        with m.If(self.begins):
+        # An idle slot takes whatever is offered: so a register alone decides over its many bits.
+        slot = Signal(self.layout, reset_less=True)
+        with m.If(~going):
             m.d.sync += [
                 slot.payload.eq(item.payload),
                 slot.x.eq(x),
-                slot.first_column.eq((x == 0) & ~drained),
+                slot.first_column.eq(at_first & ~draining.some),
                 slot.inside.eq(inside),
                 slot.rows.eq(rows_now),
                 slot.top.eq(starts | top),
                 slot.emits.eq(emits),
-                slot.starts.eq(emits & (x == self._right + self._first)),
+                slot.starts.eq(emits & at_start),
                 slot.sof.eq(emits & (fresh | starts)),
                 slot.eol.eq(emits & over),
                 slot.eof.eq(emits & over & final),
                 slot.damaged.eq(Mux(own, item.damaged | (damaged & ~starts), damaged)),
-                x.eq(Mux(over | drained, 0, x + 1)),
+            ]
+        with m.If(self.begins):
+            returns = over | draining.some
+            m.d.sync += [
+                x.eq(Mux(returns, 0, x + 1)),
+                at_first.eq(returns),
+                judging.eq(Mux(returns, self._right == 0, judging | (x == self._right - 1))),
+                at_start.eq(self._at(x, self._right + self._first, returns)),
                 fresh.eq((fresh | starts) & ~emits),
             ]
             with m.If(at_end):
-                m.d.sync += beyond.eq(self._right)
-            with m.If(outside):
-                m.d.sync += beyond.eq(beyond - 1)
+                beyond.start(self._right)
+            with m.If(beyond.some):
+                beyond.step()
             with m.If(own):
                 m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
             with m.If(starts):
-                m.d.sync += [rows.eq(1), age.eq(0), top.eq(1)]
-            with m.If(drained):
-                m.d.sync += draining.eq(draining - 1)
+                m.d.sync += [rows.eq(1), top.eq(1)]
+                unripe.start(self._below)
+            with m.If(draining.some):
+                draining.step()
             with m.If(over):
                 m.d.sync += top.eq(0)
-                with m.If(age_now != self._below):
-                    m.d.sync += age.eq(age_now + 1)
+                with m.If(unripe.some):
+                    unripe.step()
                 # What the row that follows knows of itself: below the frame it lies outside.
-                more = Mux(below != 0, 0, ~ended_now)
-                m.d.sync += rows.eq((rows_now << 1) | more)
-                with m.If(below != 0):
-                    m.d.sync += below.eq(below - 1)
+                m.d.sync += rows.eq((rows_now << 1) | (~below.some & ~ended_now))
+                with m.If(below.some):
+                    below.step()
                 with m.Elif(ended_now):
-                    m.d.sync += below.eq(self._below)
+                    below.start(self._below)
                 with m.If(final):
-                    m.d.sync += [draining.eq(self._drain), ended.eq(0)]
+                    draining.start(self._drain)
+                    m.d.sync += ended.eq(0)
 
+        valid, first, last = Signal(), Signal(), Signal()
         step = Signal(range(self._steps))
-        valid = Signal()
-        m.d.comb += going.eq(valid & (step != self._steps - 1) if self._steps > 1 else 0)
-        m.d.sync += valid.eq(self.begins | going)
-        with m.If(self.begins):
-            m.d.sync += step.eq(0)
-        with m.Elif(going):
-            m.d.sync += step.eq(step + 1)
+        m.d.sync += [valid.eq(self.begins | going), first.eq(self.begins)]
+        if self._steps > 1:
+            m.d.sync += [
+                going.eq(self.begins | (going & (step != self._steps - 2))),
+                last.eq(going & (step == self._steps - 2)),
+                step.eq(Mux(going, step + 1, 0)),
+            ]
+        else:
+            m.d.sync += last.eq(self.begins)
         m.d.comb += [
             self.valid.eq(valid),
             self.step.eq(step),
-            self.first.eq(valid & (step == 0)),
-            self.last.eq(valid & (step == self._steps - 1)),
+            self.first.eq(first),
+            self.last.eq(last),
             self.slot.eq(slot),
         ]
         return m
+
+    @staticmethod
+    def _at(x: Signal, column: int, returns: Value) -> Value:
+        """Whether the column that follows ``x`` is this one, and not the line's first unless that is."""
+        return returns if column == 0 else ~returns & (x == column - 1)

@@ -4,8 +4,10 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.folded_memory import FoldedMemory
+from softdepth.hdl.memory.line_column import LineColumn
 from softdepth.hdl.memory.window import MARKERS, raster_layout
 
 
@@ -79,71 +81,65 @@ class TallWindow(wiring.Component):
 
         # A slot begins when a column enters: a new one, or the one before again.
         at_line_start = Signal(init=1)
-        x = Signal(range(self._max_width))
-        last_x = Signal.like(x)
-        below = Signal(range(reach + after + 1))  # lines behind the frame still to come, this one included
-        repeats = Signal(range(reach + 1))
+        column_at = LineColumn(m, self._max_width)
+        x = column_at.x
+        below = Countdown(m, reach + after, "below")  # lines behind the frame, this one included
+        repeats = Countdown(m, reach, "repeats")
+        unfilled = Countdown(m, 2 * reach, "unfilled")  # columns of the line up to a whole window
+        unripe = Countdown(m, reach, "unripe")  # rows of the frame up to the first that has a result
         after_last = Signal()  # the repeats are of the line's last column
-        entered = Signal(range(2 * reach + 1))  # columns of the line so far, up to a whole window
-        row_age = Signal(range(reach + 1))  # rows of the frame so far, up to the first that has a result
         in_first_row = Signal()
         fresh = Signal()  # no result of the frame has left
         ended = Signal()  # the frame's last pixel was taken
         damaged = Signal()
 
-        flushing, repeat, new, slot = Signal(), Signal(), Signal(), Signal()
-        may = Signal()
+        slot, may = Signal(), Signal()
         m.d.comb += [
             may.eq(self.credit & ~Cat(travelling(m, slot, self.clocks - 1, "pause")[1:]).any()),
-            flushing.eq(below != 0),
-            repeat.eq((repeats != 0) & may),
-            self.i.ready.eq((repeats == 0) & ~flushing & may),
-            new.eq((repeats == 0) & may & (flushing | self.i.valid)),
-            slot.eq(repeat | new),
+            self.i.ready.eq(may & ~repeats.some & ~below.some),
+            slot.eq(may & (repeats.some | below.some | self.i.valid)),
         ]
-        first, last, starts, line_over = Signal(), Signal(), Signal(), Signal()
+        # What a slot is if there is one.
+        new, own, first, last, starts, line_over, emits = (
+            Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over", "emits")
+        )
         m.d.comb += [
+            new.eq(~repeats.some),
+            own.eq(new & ~below.some),
             first.eq(new & at_line_start),
-            last.eq(new & Mux(flushing, x == last_x, item.eol)),
-            starts.eq(new & ~flushing & item.sof),
-            line_over.eq(repeat & (repeats == 1) & after_last),
-        ]
-        now_age = Signal.like(row_age)
-        entered_now = Signal.like(entered)
-        emits = Signal()
-        m.d.comb += [
-            now_age.eq(Mux(starts, 0, row_age)),
-            entered_now.eq(Mux(first, 0, entered)),
-            emits.eq(slot & (now_age == reach) & (entered_now == 2 * reach)),
-            self.promised.eq(emits),
+            last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
+            starts.eq(own & item.sof),
+            line_over.eq(repeats.last & after_last),
+            emits.eq(~first & ~unfilled.some & ~starts & ~unripe.some),
+            self.promised.eq(slot & emits),
         ]
         with m.If(slot):
-            m.d.sync += entered.eq(entered_now + (entered_now != 2 * reach))
-        with m.If(new):
-            m.d.sync += [
-                at_line_start.eq(last),
-                x.eq(Mux(last, 0, x + 1)),
-                after_last.eq(last),
-                repeats.eq(Mux(first | last, reach, 0)),
-            ]
-            with m.If(last):
-                m.d.sync += last_x.eq(x)
-        with m.Elif(repeat):
-            m.d.sync += repeats.eq(repeats - 1)
-        with m.If(starts):
-            m.d.sync += [in_first_row.eq(1), row_age.eq(0), fresh.eq(1)]
-        with m.If(new & ~flushing):
-            m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
-        with m.If(line_over):
-            m.d.sync += in_first_row.eq(0)
-            with m.If(row_age != reach):
-                m.d.sync += row_age.eq(row_age + 1)
-            with m.If(flushing):
-                m.d.sync += below.eq(below - 1)
-            with m.Elif(ended):
-                m.d.sync += below.eq(reach + after)
-        with m.If(emits):
-            m.d.sync += fresh.eq(0)
+            with m.If(first):
+                unfilled.start(2 * reach - 1)
+            with m.Elif(unfilled.some):
+                unfilled.step()
+            with m.If(new):
+                m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
+                column_at.step(last)
+                with m.If(first | last):
+                    repeats.start(reach)
+            with m.Else():
+                repeats.step()
+            with m.If(starts):
+                m.d.sync += [in_first_row.eq(1), fresh.eq(1)]
+                unripe.start(reach)
+            with m.If(own):
+                m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
+            with m.If(line_over):
+                m.d.sync += in_first_row.eq(0)
+                with m.If(unripe.some):
+                    unripe.step()
+                with m.If(below.some):
+                    below.step()
+                with m.Elif(ended):
+                    below.start(reach + after)
+            with m.If(emits):
+                m.d.sync += fresh.eq(0)
 
         # When the memory's word is there, when the column, and when the window.
         found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
@@ -156,15 +152,15 @@ class TallWindow(wiring.Component):
         pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
         along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
-            happens[0].new.eq(new),
+            happens[0].new.eq(slot & new),
             happens[0].slot.eq(slot),
-            happens[0].emits.eq(emits),
+            happens[0].emits.eq(self.promised),
             stages[0].top.eq(starts | in_first_row),
-            stages[0].flushing.eq(flushing),
+            stages[0].flushing.eq(below.some),
             stages[0].x.eq(x),
             stages[0].sof.eq(fresh),
             stages[0].eol.eq(line_over),
-            stages[0].eof.eq(line_over & (below == after + 1)),
+            stages[0].eof.eq(line_over & (below.left == after + 1)),
             stages[0].damaged.eq(damaged),
             pixel[0].eq(item.element),
             along[0].eq(item.companion),

@@ -1,8 +1,8 @@
 """The queue at a free-running pipeline's end, and the credits that keep it from overflowing."""
 
-from amaranth.hdl import Module, ShapeLike, Signal
+from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import stream, wiring
-from amaranth.lib.fifo import SyncFIFOBuffered
+from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
 QUEUE_LATENCY = 2
@@ -46,17 +46,53 @@ class ResultQueue(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        result = Signal(self._shape)
-        m.d.comb += result.eq(self.result)
-        m.submodules.fifo = fifo = SyncFIFOBuffered(width=len(result.as_value()), depth=self._depth)
+        depth = self._depth
+        result = Value.cast(self.result)
+        taken = Signal()
+        m.d.comb += taken.eq(self.o.valid & self.o.ready)
+
+        # The output is a register that takes what comes next whenever it may, so that a full queue has one
+        # place more than its memory. What is written has a place: nobody asks.
+        places = depth - 1
+        m.submodules.memory = memory = Memory(shape=len(result), depth=places, init=[])
+        write, read = memory.write_port(), memory.read_port()
+        write_at, read_at = Signal(range(places)), Signal(range(places))
+        held = Signal(range(places + 1))  # results in memory
+        some = Signal()  # there are any
+        holding = Signal()  # there is one in the output
+        moves = Signal()  # one of them gets there
+        free = Signal()
         m.d.comb += [
-            fifo.w_en.eq(self.put),
-            fifo.w_data.eq(result),
-            self.o.valid.eq(fifo.r_rdy),
-            self.o.payload.eq(fifo.r_data),
-            fifo.r_en.eq(self.o.ready),
+            free.eq(~holding | self.o.ready),
+            moves.eq(some & free),
+            write.en.eq(self.put),
+            write.addr.eq(write_at),
+            write.data.eq(result),
+            read.en.eq(moves),
+            read.addr.eq(read_at),
+            self.o.valid.eq(holding),
+            Value.cast(self.o.payload).eq(read.data),
         ]
-        left = Signal(range(self._depth + 1), init=self._depth)
-        m.d.sync += left.eq(left - self.promised + self.dropped + (self.o.valid & self.o.ready))
-        m.d.comb += self.credit.eq(left != 0)
+        for happens, at in ((self.put, write_at), (moves, read_at)):
+            with m.If(happens):
+                m.d.sync += at.eq(Mux(at == places - 1, 0, at + 1))
+        with m.If(self.put & ~moves):
+            m.d.sync += [held.eq(held + 1), some.eq(1)]
+        with m.If(moves & ~self.put):
+            m.d.sync += [held.eq(held - 1), some.eq(held != 1)]
+        with m.If(free):
+            m.d.sync += holding.eq(some)
+
+        # Credit is a register. A promise comes late in its clock and takes a place at once; places given back
+        # wait for a clock, so that nothing leads from ``o.ready`` to ``credit`` or through an adder to it.
+        left = Signal(range(depth + 1), init=depth)
+        back = Signal(2)
+        counted = Signal.like(left)
+        credit = Signal(init=1)
+        m.d.comb += [counted.eq(left + back), self.credit.eq(credit)]
+        m.d.sync += [
+            back.eq(self.dropped + taken),
+            left.eq(Mux(self.promised, counted - 1, counted)),
+            credit.eq(Mux(self.promised, counted > 1, counted != 0)),
+        ]
         return m

@@ -4,8 +4,10 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.folded_memory import FoldedMemory
+from softdepth.hdl.memory.line_column import LineColumn
 
 MARKERS = ("sof", "eol", "eof", "damaged")
 """A raster's markers: first pixel, last of a line, last of all, and whether the frame was mended so far."""
@@ -85,90 +87,74 @@ class Window(wiring.Component):
 
         # A slot begins when a column enters: a new one, or the one before again.
         at_line_start = Signal(init=1)
-        x = Signal(range(self._max_width))
-        last_x = Signal.like(x)
-        below = Signal(range(rows + 1))  # rows below the frame that are still to come, this one included
-        repeats = Signal(range(columns + 1))
+        column_at = LineColumn(m, self._max_width)
+        x = column_at.x
+        below = Countdown(m, rows, "below")  # rows below the frame, this one included
+        repeats = Countdown(m, columns, "repeats")
+        unfilled = Countdown(m, 2 * columns, "unfilled")  # columns of the line up to a whole window
+        unripe = Countdown(m, rows, "unripe")  # rows of the frame up to the first that has a result
         after_last = Signal()  # the repeats are of the line's last column
-        entered = Signal(range(2 * columns + 1))  # columns of the line so far, up to a whole window
-        row_age = Signal(range(rows + 1))  # rows of the frame so far, up to the first that has a result
         frame_rows = Signal(height)  # which rows of the column lie inside the frame
         in_first_row = Signal()
         fresh = Signal()  # no result of the frame has left
         ended = Signal()  # the frame's last pixel was taken
         damaged = Signal()
 
-        flushing = Signal()
-        repeat = Signal()
-        new = Signal()
-        slot = Signal()
-        may = Signal()
+        slot, may = Signal(), Signal()
         m.d.comb += [
             may.eq(self.credit & ~Cat(travelling(m, slot, self.clocks - 1, "pause")[1:]).any()),
-            repeat.eq((repeats != 0) & may),
-            flushing.eq(below != 0),
-            self.i.ready.eq((repeats == 0) & ~flushing & may),
-            new.eq((repeats == 0) & may & (flushing | self.i.valid)),
-            slot.eq(repeat | new),
+            self.i.ready.eq(may & ~repeats.some & ~below.some),
+            slot.eq(may & (repeats.some | below.some | self.i.valid)),
         ]
-        first = Signal()
-        last = Signal()
-        starts = Signal()
-        line_over = Signal()
+        # What a slot is if there is one.
+        new, own, first, last, starts, line_over = (
+            Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over")
+        )
+        ripe, emits, ends, final = (Signal(name=name) for name in ("ripe", "emits", "ends", "final"))
         m.d.comb += [
+            new.eq(~repeats.some),
+            own.eq(new & ~below.some),
             first.eq(new & at_line_start),
-            last.eq(new & Mux(flushing, x == last_x, item.eol)),
-            starts.eq(new & ~flushing & item.sof),
-            line_over.eq((last & (columns == 0)) | (repeat & (repeats == 1) & after_last)),
+            last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
+            starts.eq(own & item.sof),
+            line_over.eq(repeats.last & after_last if columns else last),
+            ripe.eq(Mux(starts, rows == 0, ~unripe.some)),
+            emits.eq(ripe & Mux(first, columns == 0, ~unfilled.some)),
+            # Rows end with their last repeat; what follows from it is not looked at before.
+            ends.eq(Mux(own, item.eof, ended)),
+            final.eq(below.last | (~below.some & ends if rows == 0 else 0)),
+            self.promised.eq(slot & emits),
         ]
-        now_age = Signal.like(row_age)
-        m.d.comb += now_age.eq(Mux(starts, 0, row_age))
-        entered_now = Signal.like(entered)
-        m.d.comb += entered_now.eq(Mux(first, 0, entered))
-        emits = Signal()
-        m.d.comb += [
-            emits.eq(slot & (now_age == rows) & (entered_now == 2 * columns)),
-            self.promised.eq(emits),
-        ]
-        with m.If(slot & (entered_now != 2 * columns)):
-            m.d.sync += entered.eq(entered_now + 1)
-        with m.Elif(slot):
-            m.d.sync += entered.eq(entered_now)
-        with m.If(new):
-            m.d.sync += [
-                at_line_start.eq(last),
-                x.eq(Mux(last, 0, x + 1)),
-                after_last.eq(last),
-                repeats.eq(Mux(first | last, columns, 0)),
-            ]
-            with m.If(last):
-                m.d.sync += last_x.eq(x)
-        with m.Elif(repeat):
-            m.d.sync += repeats.eq(repeats - 1)
-        with m.If(starts):
-            m.d.sync += [frame_rows.eq(1 << (height - 1)), in_first_row.eq(1), row_age.eq(0), fresh.eq(1)]
-        with m.If(new & ~flushing):
-            m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
-        # Rows end with their last repeat; what follows from it is not looked at before.
-        final = Signal()
-        ends = Signal()
-        m.d.comb += [
-            ends.eq(Mux(new & ~flushing, item.eof, ended)),
-            final.eq(Mux(flushing, below == 1, (rows == 0) & ends)),
-        ]
-        with m.If(line_over):
-            m.d.sync += [
-                frame_rows.eq(Cat(frame_rows[1:], Mux(flushing, below == 0, ~ends))),
-                in_first_row.eq(0),
-            ]
-            with m.If(row_age != rows):
-                m.d.sync += row_age.eq(now_age + 1)
-            with m.If(flushing):
-                m.d.sync += below.eq(below - 1)
-            with m.Elif(ends):
-                m.d.sync += below.eq(rows)
-        with m.If(emits):
-            m.d.sync += fresh.eq(0)
+        with m.If(slot):
+            with m.If(first):
+                unfilled.start(max(2 * columns - 1, 0))
+            with m.Elif(unfilled.some):
+                unfilled.step()
+            with m.If(new):
+                m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
+                column_at.step(last)
+                with m.If(first | last):
+                    repeats.start(columns)
+            with m.Else():
+                repeats.step()
+            with m.If(starts):
+                m.d.sync += [frame_rows.eq(1 << (height - 1)), in_first_row.eq(1), fresh.eq(1)]
+                unripe.start(rows)
+            with m.If(own):
+                m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
+            with m.If(line_over):
+                m.d.sync += [
+                    frame_rows.eq(Cat(frame_rows[1:], ~below.some & ~ends)),
+                    in_first_row.eq(0),
+                ]
+                with m.If(unripe.some):
+                    unripe.step()
+                with m.If(below.some):
+                    below.step()
+                with m.Elif(ends):
+                    below.start(rows)
+            with m.If(emits):
+                m.d.sync += fresh.eq(0)
 
         # When the memory's word is there, when the column, and when the window.
         found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
@@ -191,19 +177,19 @@ class Window(wiring.Component):
         pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
         along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
-            happens[0].new.eq(new),
+            happens[0].new.eq(slot & new),
             happens[0].slot.eq(slot),
-            happens[0].emits.eq(emits),
+            happens[0].emits.eq(self.promised),
             stages[0].top.eq(starts | in_first_row),
-            stages[0].flushing.eq(flushing),
+            stages[0].flushing.eq(below.some),
             # Of the copies of a line's first column the last is the pixel, of those of its last the first.
-            stages[0].inside.eq(Mux(new, ~first | (columns == 0), (repeats == 1) & ~after_last)),
+            stages[0].inside.eq(Mux(new, ~first | (columns == 0), repeats.last & ~after_last)),
             stages[0].x.eq(x),
             stages[0].rows.eq(Mux(starts, 1 << (height - 1), frame_rows)),
             stages[0].sof.eq(fresh | (starts & (rows == 0))),
             stages[0].eol.eq(line_over),
             stages[0].eof.eq(line_over & final),
-            stages[0].damaged.eq(Mux(new & ~flushing, item.damaged | (damaged & ~starts), damaged)),
+            stages[0].damaged.eq(Mux(own, item.damaged | (damaged & ~starts), damaged)),
             pixel[0].eq(item.element),
             along[0].eq(item.companion),
         ]

@@ -4,6 +4,8 @@ from amaranth.hdl import Cat, Module, Mux, Signal
 from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.countdown import Countdown
+from softdepth.hdl.memory.line_column import LineColumn
 from softdepth.hdl.memory.window import MARKERS
 
 
@@ -55,20 +57,17 @@ class PostSlots(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         reach = self._reach
-        below = Signal(range(reach + 1))  # rows below the frame that are still to come, this one included
-        after = Signal(range(reach + 1))  # slots behind the line
-        x = Signal(range(self._max_width))
-        last_x = Signal.like(x)
+        below = Countdown(m, reach, "below")  # rows below the frame, this one included
+        after = Countdown(m, reach, "after")  # slots behind the line
+        column = LineColumn(m, self._max_width)
         beside = Signal(reach)  # a bit for each pixel of the line so far
         rows = Signal(reach)  # and for each row
         damaged = Signal()
         pauses = Signal()
         may = Signal()
-        flushing, trailing = Signal(), Signal()
+        flushing, trailing = below.some, after.some
         m.d.comb += [
             may.eq(self.credit & ~pauses),
-            flushing.eq(below != 0),
-            trailing.eq(after != 0),
             self.ready.eq(may & ~flushing & ~trailing),
             self.slot.eq(may & (flushing | trailing | self.valid)),
             self.stores.eq(self.slot & ~trailing),
@@ -82,28 +81,29 @@ class PostSlots(wiring.Component):
         m.d.comb += [
             outside.eq(flushing | trailing),
             starts.eq(~outside & self.sof),
-            last.eq(Mux(outside, x == last_x, self.eol)),
+            last.eq(Mux(outside, column.is_last, self.eol)),
             now.eq(Mux(starts, 0, rows)),
-            self.x.eq(x),
+            self.x.eq(column.x),
             self.before.eq(beside),
             self.above.eq(Mux(outside, 0, now)),
         ]
-        with m.If(self.slot & trailing):
-            m.d.sync += after.eq(after - 1)
-        with m.Elif(self.slot):
-            m.d.sync += [
-                x.eq(Mux(last, 0, x + 1)),
-                beside.eq(Mux(last, 0, Cat(1, beside))),
-                rows.eq(Mux(last, Cat(1, now), now)),
-            ]
-            with m.If(last):
-                m.d.sync += [last_x.eq(x), after.eq(reach)]
-            with m.If(~flushing):
-                m.d.sync += damaged.eq(self.damaged | (damaged & ~starts))
-                with m.If(self.eof):
-                    m.d.sync += below.eq(reach)
-            with m.Elif(last):
-                m.d.sync += below.eq(below - 1)
+        with m.If(self.slot):
+            with m.If(trailing):
+                after.step()
+            with m.Else():
+                column.step(last)
+                m.d.sync += [
+                    beside.eq(Mux(last, 0, Cat(1, beside))),
+                    rows.eq(Mux(last, Cat(1, now), now)),
+                ]
+                with m.If(last):
+                    after.start(reach)
+                with m.If(~flushing):
+                    m.d.sync += damaged.eq(self.damaged | (damaged & ~starts))
+                    with m.If(self.eof):
+                        below.start(reach)
+                with m.Elif(last):
+                    below.step()
 
         # What is known of each pixel until it is in the middle of its row.
         enters, emits = Signal(reach), Signal(reach)
@@ -113,7 +113,7 @@ class PostSlots(wiring.Component):
                 enters.eq(Cat(~trailing, enters)),
                 emits.eq(Cat(~trailing & now[-1], emits)),
                 eol.eq(Cat(last, eol)),
-                eof.eq(Cat(flushing & (below == 1) & last, eof)),
+                eof.eq(Cat(below.last & last, eof)),
             ]
         m.d.comb += [
             self.enters.eq(self.slot & enters[-1]),

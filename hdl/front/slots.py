@@ -5,6 +5,7 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.countdown import Countdown
+from softdepth.hdl.memory.pace import Pace
 from softdepth.hdl.memory.window import MARKERS
 
 
@@ -115,12 +116,19 @@ class Slots(wiring.Component):
         damaged = Signal()
         fresh = Signal()
 
-        # Registers alone decide, but for what is offered and the credit, which are registers elsewhere.
-        going = Signal()  # steps of this slot are left after this clock
-        m.d.comb += [
-            self.i.ready.eq(self.credit & ~going & ~draining.some & ~beyond.some),
-            self.begins.eq(self.credit & ~going & (draining.some | beyond.some | self.i.valid)),
-        ]
+        pace = Pace(
+            m,
+            self._steps,
+            credit=self.credit,
+            valid=self.i.valid,
+            ready=self.i.ready,
+            beyond=draining.some | beyond.some,
+        )
+        going, ending = (
+            pace.rest.some,
+            pace.rest.last,
+        )  # steps of this slot are left after this clock, and one
+        m.d.comb += self.begins.eq(pace.slot)
 
         # What a slot is if one begins.
         own = Signal()  # of a pixel of the frame
@@ -199,15 +207,12 @@ class Slots(wiring.Component):
 
         valid, first, last = Signal(), Signal(), Signal()
         step = Signal(range(self._steps))
-        m.d.sync += [valid.eq(self.begins | going), first.eq(self.begins)]
-        if self._steps > 1:
-            m.d.sync += [
-                going.eq(self.begins | (going & (step != self._steps - 2))),
-                last.eq(going & (step == self._steps - 2)),
-                step.eq(Mux(going, step + 1, 0)),
-            ]
-        else:
-            m.d.sync += last.eq(self.begins)
+        m.d.sync += [
+            valid.eq(self.begins | going),
+            first.eq(self.begins),
+            last.eq(ending if self._steps > 1 else self.begins),
+            step.eq(Mux(going, step + 1, 0)),
+        ]
         m.d.comb += [
             self.valid.eq(valid),
             self.step.eq(step),

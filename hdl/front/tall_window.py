@@ -5,9 +5,9 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.countdown import Countdown
-from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.folded_memory import FoldedMemory
 from softdepth.hdl.memory.line_column import LineColumn
+from softdepth.hdl.memory.pace import Pace
 from softdepth.hdl.memory.window import MARKERS, raster_layout
 
 
@@ -93,12 +93,14 @@ class TallWindow(wiring.Component):
         ended = Signal()  # the frame's last pixel was taken
         damaged = Signal()
 
-        slot, may = Signal(), Signal()
-        m.d.comb += [
-            may.eq(self.credit & ~Cat(travelling(m, slot, self.clocks - 1, "pause")[1:]).any()),
-            self.i.ready.eq(may & ~repeats.some & ~below.some),
-            slot.eq(may & (repeats.some | below.some | self.i.valid)),
-        ]
+        slot = Pace(
+            m,
+            self.clocks,
+            credit=self.credit,
+            valid=self.i.valid,
+            ready=self.i.ready,
+            beyond=repeats.some | below.some,
+        ).slot
         # What a slot is if there is one.
         new, own, first, last, starts, line_over, emits = (
             Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over", "emits")

@@ -4,6 +4,7 @@ from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.memory.packed_queue import PackedQueue
 from softdepth.hdl.post.layout import is_measured, post_layout
 from softdepth.spec.config import CONFIDENCE_BITS
@@ -43,7 +44,7 @@ class Fill(wiring.Component):
     i, o : results, `post_layout`.
     """
 
-    latency = PackedQueue.latency + 1
+    latency = PackedQueue.latency + ItemQueue.latency
     """Of a measurement; what has none waits for the next, or the line's end."""
 
     def __init__(self, value_bits: int, colour_bits: int, max_width: int) -> None:
@@ -96,45 +97,39 @@ class Fill(wiring.Component):
             left_is_smaller.eq(any_left & (head.mark | (last < head.value))),
             nothing.eq(~any_left & head.mark),
         ]
-        # A register behind the choice, which the queues' outputs are far from.
+        # Places behind the choice, which the queues' outputs are far from, and by which no ``ready`` reaches
+        # through to them.
+        m.submodules.chosen = places = ItemQueue(self._layout)
+        chosen = places.i.payload
         gives = Signal()
-        full = Signal()
-        chosen = Signal(self._layout, reset_less=True)
         fresh = Signal(init=1)  # the frame's first result has not left
         m.d.comb += [
-            gives.eq(results.o.valid & values.o.valid & ~ending & (~full | self.o.ready)),
+            gives.eq(results.o.valid & values.o.valid & ~ending & places.i.ready),
             results.o.ready.eq(gives),
             values.o.ready.eq((gives & measured) | ending),
-            self.o.valid.eq(full),
-            self.o.payload.eq(chosen),
+            places.i.valid.eq(gives),
+            chosen.colour.eq(result.colour),
+            chosen.damaged.eq(result.damaged),
+            chosen.sof.eq(fresh),
+            chosen.eol.eq(ends != 0),
+            chosen.eof.eq(ends == 2),
         ]
-        with m.If(gives):
-            m.d.sync += [
-                full.eq(1),
-                ending.eq(ends != 0),
-                fresh.eq(ends == 2),
-                chosen.colour.eq(result.colour),
-                chosen.damaged.eq(result.damaged),
-                chosen.sof.eq(fresh),
-                chosen.eol.eq(ends != 0),
-                chosen.eof.eq(ends == 2),
+        wiring.connect(m, places.o, wiring.flipped(self.o))
+        with m.If(measured):
+            m.d.comb += [
+                chosen.value.eq(head.value),
+                chosen.code.eq(Mux(result.partial, Validity.PARTIAL, Validity.FULL)),
+                chosen.confidence.eq(result.about),
             ]
+        with m.Else():
+            m.d.comb += [
+                chosen.value.eq(Mux(nothing, 0, Mux(left_is_smaller, last, head.value))),
+                chosen.code.eq(Mux(nothing, Validity.NOTHING, Validity.FILLED)),
+            ]
+        with m.If(gives):
+            m.d.sync += [ending.eq(ends != 0), fresh.eq(ends == 2)]
             with m.If(measured):
-                m.d.sync += [
-                    last.eq(head.value),
-                    any_left.eq(1),
-                    chosen.value.eq(head.value),
-                    chosen.code.eq(Mux(result.partial, Validity.PARTIAL, Validity.FULL)),
-                    chosen.confidence.eq(result.about),
-                ]
-            with m.Else():
-                m.d.sync += [
-                    chosen.value.eq(Mux(nothing, 0, Mux(left_is_smaller, last, head.value))),
-                    chosen.code.eq(Mux(nothing, Validity.NOTHING, Validity.FILLED)),
-                    chosen.confidence.eq(0),
-                ]
-        with m.Elif(self.o.ready):
-            m.d.sync += full.eq(0)
+                m.d.sync += [last.eq(head.value), any_left.eq(1)]
         with m.If(ending & values.o.valid):
             m.d.sync += [ending.eq(0), any_left.eq(0)]
         return m

@@ -6,6 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.memory.line_column import LineColumn
+from softdepth.hdl.memory.pace import Pace
 from softdepth.hdl.memory.window import MARKERS
 
 
@@ -63,23 +64,22 @@ class PostSlots(wiring.Component):
         beside = Signal(reach)  # a bit for each pixel of the line so far
         rows = Signal(reach)  # and for each row
         damaged = Signal()
-        pauses = Signal()
-        may = Signal()
         flushing, trailing = below.some, after.some
-        m.d.comb += [
-            may.eq(self.credit & ~pauses),
-            self.ready.eq(may & ~flushing & ~trailing),
-            self.slot.eq(may & (flushing | trailing | self.valid)),
-            self.stores.eq(self.slot & ~trailing),
-        ]
-        if self._clocks > 1:
-            m.d.sync += pauses.eq(self.slot)
-
         outside = Signal()
+        pace = Pace(
+            m,
+            self._clocks,
+            credit=self.credit,
+            valid=self.valid,
+            ready=self.ready,
+            beyond=outside,
+        )
         starts, last = Signal(), Signal()
         now = Signal(reach)
         m.d.comb += [
             outside.eq(flushing | trailing),
+            self.slot.eq(pace.slot),
+            self.stores.eq(self.slot & ~trailing),
             starts.eq(~outside & self.sof),
             last.eq(Mux(outside, column.is_last, self.eol)),
             now.eq(Mux(starts, 0, rows)),

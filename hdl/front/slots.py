@@ -99,7 +99,8 @@ class Slots(wiring.Component):
         beyond = Countdown(m, self._right, "beyond")  # slots to the right of the frame
         below = Countdown(m, self._below, "below")  # lines below the frame, this one included
         draining = Countdown(m, self._drain, "draining")
-        unripe = Countdown(m, self._below, "unripe")  # rows of the frame up to the first that has a result
+        # Rows of the frame up to the first that has a result. Frames are whole: it is set at the end of one.
+        unripe = Countdown(m, self._below, "unripe", init=self._below)
         x = Signal(range(self._max_width + self._right))
         # Of ``x``: the line's first, from the first pixel that is judged on, and the first that counts.
         at_first, judging, at_start = (
@@ -150,7 +151,7 @@ class Slots(wiring.Component):
         m.d.comb += [
             rows_now.eq(Mux(starts, 1, rows)),
             ended_now.eq(Mux(own, item.eof, ended)),
-            emits.eq(~draining.some & judging & Mux(starts, self._below == 0, ~unripe.some)),
+            emits.eq(~draining.some & judging & ~unripe.some),
             final.eq(below.last | (ended_now if self._below == 0 else 0)),
         ]
 
@@ -188,7 +189,6 @@ class Slots(wiring.Component):
                 m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
             with m.If(starts):
                 m.d.sync += [rows.eq(1), top.eq(1)]
-                unripe.start(self._below)
             with m.If(draining.some):
                 draining.step()
             with m.If(over):
@@ -203,6 +203,7 @@ class Slots(wiring.Component):
                     below.start(self._below)
                 with m.If(final):
                     draining.start(self._drain)
+                    unripe.start(self._below)
                     m.d.sync += ended.eq(0)
 
         valid, first, last = Signal(), Signal(), Signal()

@@ -85,8 +85,10 @@ class TallWindow(wiring.Component):
         x = column_at.x
         below = Countdown(m, reach + after, "below")  # lines behind the frame, this one included
         repeats = Countdown(m, reach, "repeats")
-        unfilled = Countdown(m, 2 * reach, "unfilled")  # columns of the line up to a whole window
-        unripe = Countdown(m, reach, "unripe")  # rows of the frame up to the first that has a result
+        # Columns of the line up to a whole window, and rows of the frame up to the first that has a result.
+        # Frames are whole: both are set at the end of what came before.
+        unfilled = Countdown(m, 2 * reach, "unfilled", init=2 * reach)
+        unripe = Countdown(m, reach, "unripe", init=reach)
         after_last = Signal()  # the repeats are of the line's last column
         in_first_row = Signal()
         fresh = Signal()  # no result of the frame has left
@@ -112,13 +114,11 @@ class TallWindow(wiring.Component):
             last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
             starts.eq(own & item.sof),
             line_over.eq(repeats.last & after_last),
-            emits.eq(~first & ~unfilled.some & ~starts & ~unripe.some),
+            emits.eq(~unripe.some & ~unfilled.some),
             self.promised.eq(slot & emits),
         ]
         with m.If(slot):
-            with m.If(first):
-                unfilled.start(2 * reach - 1)
-            with m.Elif(unfilled.some):
+            with m.If(unfilled.some):
                 unfilled.step()
             with m.If(new):
                 m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
@@ -129,17 +129,19 @@ class TallWindow(wiring.Component):
                 repeats.step()
             with m.If(starts):
                 m.d.sync += [in_first_row.eq(1), fresh.eq(1)]
-                unripe.start(reach)
             with m.If(own):
                 m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
             with m.If(line_over):
                 m.d.sync += in_first_row.eq(0)
+                unfilled.start(2 * reach)
                 with m.If(unripe.some):
                     unripe.step()
                 with m.If(below.some):
                     below.step()
                 with m.Elif(ended):
                     below.start(reach + after)
+                with m.If(below.last):
+                    unripe.start(reach)
             with m.If(emits):
                 m.d.sync += fresh.eq(0)
 

@@ -5,6 +5,7 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.level import Level
 from softdepth.hdl.memory.packed_memory import PackedMemory
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
 
@@ -38,18 +39,14 @@ class PackedQueue(wiring.Component):
         new = Value.cast(self.i.payload)
         m.submodules.memory = memory = PackedMemory(unsigned(len(new)), depth, registered=True)
         m.submodules.queue = queue = ResultQueue(self._shape, self._read)
-        held = Signal(range(depth + 1))  # words in memory
-        room, some = Signal(init=1), Signal()  # there are fewer than `depth`, and more than none
         write_at, read_at = Signal(range(depth)), Signal(range(depth))
         puts, takes = Signal(), Signal()
-        now = Signal.like(held)
+        level = Level(m, depth, puts, takes)
         m.d.comb += [
-            self.i.ready.eq(room),
-            puts.eq(self.i.valid & room),
-            takes.eq(some & queue.credit),
-            now.eq(held + puts - takes),
+            self.i.ready.eq(level.room),
+            puts.eq(self.i.valid & level.room),
+            takes.eq(level.some & queue.credit),
         ]
-        m.d.sync += [held.eq(now), room.eq(now != depth), some.eq(now != 0)]
         for happens, at in ((puts, write_at), (takes, read_at)):
             with m.If(happens):
                 m.d.sync += at.eq(at + 1)

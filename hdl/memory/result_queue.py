@@ -5,6 +5,8 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.memory.level import Level
+
 QUEUE_LATENCY = 2
 """Clocks from a write to the output."""
 
@@ -57,11 +59,10 @@ class ResultQueue(wiring.Component):
         m.submodules.memory = memory = Memory(shape=len(result), depth=places, init=[])
         write, read = memory.write_port(), memory.read_port()
         write_at, read_at = Signal(range(places)), Signal(range(places))
-        held = Signal(range(places + 1))  # results in memory
-        some = Signal()  # there are any
         holding = Signal()  # there is one in the output
         moves = Signal()  # one of them gets there
         free = Signal()
+        some = Level(m, places, self.put, moves).some
         m.d.comb += [
             free.eq(~holding | self.o.ready),
             moves.eq(some & free),
@@ -76,10 +77,6 @@ class ResultQueue(wiring.Component):
         for happens, at in ((self.put, write_at), (moves, read_at)):
             with m.If(happens):
                 m.d.sync += at.eq(Mux(at == places - 1, 0, at + 1))
-        with m.If(self.put & ~moves):
-            m.d.sync += [held.eq(held + 1), some.eq(1)]
-        with m.If(moves & ~self.put):
-            m.d.sync += [held.eq(held - 1), some.eq(held != 1)]
         with m.If(free):
             m.d.sync += holding.eq(some)
 

@@ -91,8 +91,10 @@ class Window(wiring.Component):
         x = column_at.x
         below = Countdown(m, rows, "below")  # rows below the frame, this one included
         repeats = Countdown(m, columns, "repeats")
-        unfilled = Countdown(m, 2 * columns, "unfilled")  # columns of the line up to a whole window
-        unripe = Countdown(m, rows, "unripe")  # rows of the frame up to the first that has a result
+        # Columns of the line up to a whole window, and rows of the frame up to the first that has a result.
+        # Frames are whole: both are set at the end of what came before.
+        unfilled = Countdown(m, 2 * columns, "unfilled", init=2 * columns)
+        unripe = Countdown(m, rows, "unripe", init=rows)
         after_last = Signal()  # the repeats are of the line's last column
         frame_rows = Signal(height)  # which rows of the column lie inside the frame
         in_first_row = Signal()
@@ -112,7 +114,7 @@ class Window(wiring.Component):
         new, own, first, last, starts, line_over = (
             Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over")
         )
-        ripe, emits, ends, final = (Signal(name=name) for name in ("ripe", "emits", "ends", "final"))
+        emits, ends, final = (Signal(name=name) for name in ("emits", "ends", "final"))
         m.d.comb += [
             new.eq(~repeats.some),
             own.eq(new & ~below.some),
@@ -120,17 +122,14 @@ class Window(wiring.Component):
             last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
             starts.eq(own & item.sof),
             line_over.eq(repeats.last & after_last if columns else last),
-            ripe.eq(Mux(starts, rows == 0, ~unripe.some)),
-            emits.eq(ripe & Mux(first, columns == 0, ~unfilled.some)),
+            emits.eq(~unripe.some & ~unfilled.some),
             # Rows end with their last repeat; what follows from it is not looked at before.
             ends.eq(Mux(own, item.eof, ended)),
             final.eq(below.last | (~below.some & ends if rows == 0 else 0)),
             self.promised.eq(slot & emits),
         ]
         with m.If(slot):
-            with m.If(first):
-                unfilled.start(max(2 * columns - 1, 0))
-            with m.Elif(unfilled.some):
+            with m.If(unfilled.some):
                 unfilled.step()
             with m.If(new):
                 m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
@@ -141,7 +140,6 @@ class Window(wiring.Component):
                 repeats.step()
             with m.If(starts):
                 m.d.sync += [frame_rows.eq(1 << (height - 1)), in_first_row.eq(1), fresh.eq(1)]
-                unripe.start(rows)
             with m.If(own):
                 m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
             with m.If(line_over):
@@ -149,12 +147,15 @@ class Window(wiring.Component):
                     frame_rows.eq(Cat(frame_rows[1:], ~below.some & ~ends)),
                     in_first_row.eq(0),
                 ]
+                unfilled.start(2 * columns)
                 with m.If(unripe.some):
                     unripe.step()
                 with m.If(below.some):
                     below.step()
                 with m.Elif(ends):
                     below.start(rows)
+                with m.If(final):
+                    unripe.start(rows)
             with m.If(emits):
                 m.d.sync += fresh.eq(0)
 

@@ -1,0 +1,28 @@
+"""How many words a memory holds, with registers for what its two sides ask."""
+
+from amaranth.hdl import Module, Signal, Value
+
+
+class Level:
+    """Counts words that come and go; whether there are any, and room for more, are registers of their own.
+
+    What happens may be known late in a clock: it chooses, and goes through no sum.
+
+    Parameters
+    ----------
+    m : the module that this is part of.
+    most : words that there is room for.
+    comes, goes : a word does; ``comes`` never without ``room``, ``goes`` never without ``some``.
+
+    Members
+    -------
+    some, room : there is a word, and there are fewer than ``most``.
+    """
+
+    def __init__(self, m: Module, most: int, comes: Value, goes: Value) -> None:
+        held = Signal(range(most + 1), name="held")
+        self.some, self.room = Signal(name="some"), Signal(name="room", init=1)
+        with m.If(comes & ~goes):
+            m.d.sync += [held.eq(held + 1), self.some.eq(1), self.room.eq(held != most - 1)]
+        with m.If(goes & ~comes):
+            m.d.sync += [held.eq(held - 1), self.some.eq(held != 1), self.room.eq(1)]

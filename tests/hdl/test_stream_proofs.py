@@ -29,7 +29,7 @@ BLOCKS: dict[str, Callable[[], Any]] = {
     "front": lambda: Front(config(**BAND, **SMALL)),
 }
 SIZES: dict[str, dict[str, Any]] = {
-    "fill": {"widths": range(1, 4), "heights": range(1, 3), "quiet": 8},
+    "fill": {"widths": range(1, 4), "heights": range(1, 3), "quiet": 9},
     "island": {"widths": range(4, 5), "heights": range(1, 2), "quiet": 20},
     "front": {"widths": range(4, 7), "heights": range(1, 4), "quiet": 4},
 }
@@ -60,7 +60,7 @@ def test_a_fault_behind_a_block_is_refuted(fault: Fault, tmp_path: Path) -> None
 
 
 MUTANTS = {
-    "a result is overwritten": (Fill, (1, 1, 4), "~ending & (~full | self.o.ready)", "~ending"),
+    "a result is overwritten": (Fill, (1, 1, 4), "~ending & places.i.ready", "~ending"),
 }
 
 

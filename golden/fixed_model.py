@@ -14,7 +14,7 @@ For every pixel and candidate d, in exact integer arithmetic:
 5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
    Where S is not above zero, the cost is infinite: N / S = 1 / 0, which no candidate with S > 0
    loses against.
-   Candidates are counted from `Config.min_disparity` on (`front.offset`).
+   Candidates are counted from `Config.min_disparity` on (`front.overlap`).
 6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
    so far when ``N * S_best < N_best * S``.
 
@@ -33,7 +33,7 @@ from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.fixed_operators import conclude
 from softdepth.golden.costs.fuzzy.inference import Memberships
 from softdepth.golden.front.borders import validity_codes
-from softdepth.golden.front.offset import first_column, from_zero, overlap
+from softdepth.golden.front.overlap import first_column, from_zero, overlap
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
 from softdepth.golden.front.views import column_in_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap, Result
@@ -65,7 +65,7 @@ class Stages:
 
     Members
     -------
-    winners : of both views, with the costs around the left one; in the core's view, as `front.offset`
+    winners : of both views, with the costs around the left one; in the core's view, as `front.overlap`
         makes it.
     maps : by name, the map after each stage of `post.stages`, in the user's reference view.
     """

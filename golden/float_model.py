@@ -10,7 +10,7 @@ from softdepth.golden.costs.criteria import Values, compensate
 from softdepth.golden.costs.fuzzy.inference import conclusions
 from softdepth.golden.costs.fuzzy.operators import operator
 from softdepth.golden.front.borders import validity_codes
-from softdepth.golden.front.offset import first_column, from_zero, overlap
+from softdepth.golden.front.overlap import first_column, from_zero, overlap
 from softdepth.golden.front.pair import Image, check_pair, check_pixel
 from softdepth.golden.front.views import column_in_core_view, to_core_view
 from softdepth.golden.maps import DisparityMap

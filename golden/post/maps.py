@@ -3,12 +3,12 @@
 import numpy as np
 
 from softdepth.golden.front.borders import validity_codes
-from softdepth.golden.front.offset import from_zero, placed
+from softdepth.golden.front.overlap import from_zero, placed
 from softdepth.golden.front.pair import Image
 from softdepth.golden.front.views import from_core_view
 from softdepth.golden.maps import DisparityMap
+from softdepth.golden.post.confidence import confidence
 from softdepth.golden.post.stages import stages
-from softdepth.golden.winners.confidence import confidence
 from softdepth.golden.winners.frame import Winners
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
@@ -19,7 +19,7 @@ def stage_maps(config: Config, found: Winners, reference: Image, width: int) -> 
 
     Parameters
     ----------
-    found, reference : winners and the reference view, in the core's view as `front.offset` makes it.
+    found, reference : winners and the reference view, in the core's view as `front.overlap` makes it.
     width : of the user's images.
     """
     inner = from_zero(config)

@@ -1,7 +1,7 @@
 """The stages after the winners, in their order; this file is the specification of their sequence.
 
 1. ``winner``: the left winner, with the code of `borders.validity_codes`.
-2. ``check``: results that `check.consistent` does not confirm become INCONSISTENT.
+2. ``check``: results that `left_right.consistent` does not confirm become INCONSISTENT.
 3. ``island``: those that fail `island.on_an_island` become ISLAND.
 4. ``sixteenths``: the remaining ones get their fraction of a pixel. From here on, pixels without a result
    are 0.
@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 from softdepth.golden.front.gradient import BITS
 from softdepth.golden.front.pair import Image
-from softdepth.golden.post.check import consistent
 from softdepth.golden.post.fill import fill
 from softdepth.golden.post.island import on_an_island
+from softdepth.golden.post.left_right import consistent
 from softdepth.golden.post.masked_median import along_row, down_column
 from softdepth.golden.post.median import median
 from softdepth.golden.post.sixteenths import sixteenths

@@ -11,9 +11,9 @@ from softdepth.golden.costs.candidates import Band, bands
 from softdepth.golden.costs.criteria import Values
 from softdepth.golden.front.pair import Image
 from softdepth.golden.winners.cost import Comparison, Cost
-from softdepth.golden.winners.left import Left
+from softdepth.golden.winners.left_winner import LeftWinner
 from softdepth.golden.winners.neighbours import neighbours
-from softdepth.golden.winners.right import Right
+from softdepth.golden.winners.right_winner import RightWinner
 from softdepth.golden.winners.runner_up import runner_up
 from softdepth.spec.config import Config
 
@@ -76,8 +76,8 @@ def _numbers(config: Config) -> bool:
 def _judge(part: Band, config: Config, cost: CostOf, comparison: Comparison, found: Winners) -> None:
     place = np.s_[part.rows, part.columns]
     post = config.post
-    first = Left(part.shape, comparison)
-    second = Right(part.shape if post.check else (0, 0), comparison)
+    first = LeftWinner(part.shape, comparison)
+    second = RightWinner(part.shape if post.check else (0, 0), comparison)
     numbers = _numbers(config)
     volume = np.empty((0, 0, 0), found.at.dtype)
     if numbers:

@@ -23,7 +23,7 @@ class Table(NamedTuple):
 
 
 def tables(evaluation: Evaluation) -> list[Table]:
-    """All that have something to show, in the order in which they are read."""
+    """All tables that have something to show, in reading order."""
     found = [overview(evaluation)]
     if len(evaluation.groups) > 1:
         found.append(by_group(evaluation))
@@ -58,9 +58,9 @@ def overview(evaluation: Evaluation) -> Table:
         measured = "-" if score.measured is None else f"{score.measured:.1f} %"
         rows.append([evaluation.methods[method], *(f"{v:.2f}" for v in values), *ratios, measured])
     text = (
-        f"Per cent of the pixels of known truth that are off by more than 1 and 2 px, mean of"
-        f" {len(evaluation.scenes)} scenes; *error* is the mean of the four. *Of HH's* and *of SGBM's*: the"
-        " geometric mean over scenes of the ratio to that matcher's error on the same scene. *Measured*: the"
+        f"Per cent of the pixels with known truth that are off by more than 1 and 2 px, as a mean over"
+        f" {len(evaluation.scenes)} scenes. *Error* is the mean of the four. *Of HH's* and *of SGBM's* are the"
+        " geometric mean over scenes of the ratio to that matcher's error on the same scene. *Measured* is the"
         " share of pixels that were not filled."
     )
     return Table("All scenes", text, rows)
@@ -77,7 +77,7 @@ def by_group(evaluation: Evaluation) -> Table:
             for m in methods
         ]
         rows.append([group, str(count), *cells])
-    return Table("By data set", "Mean error, and in brackets its ratio to HH's.", rows)
+    return Table("By data set", "Mean error, with its ratio to HH's in brackets.", rows)
 
 
 def by_way(evaluation: Evaluation) -> Table:
@@ -85,7 +85,7 @@ def by_way(evaluation: Evaluation) -> Table:
     methods = _shown(evaluation)
     rows = [["pairs", *(evaluation.methods[m] for m in methods)]]
     for way in evaluation.ways:
-        title = "as they are" if way == CLEAN else WAYS[way][0]
+        title = "unchanged" if way == CLEAN else WAYS[way][0]
         rows.append([title, *(f"{evaluation.score(m, way).error:.2f}" for m in methods)])
     return Table("Degraded pairs", "Mean error over all scenes.", rows)
 
@@ -93,7 +93,7 @@ def by_way(evaluation: Evaluation) -> Table:
 def fuzzy(evaluation: Evaluation) -> Table:
     """The costs over the same criteria, and the paper's method on the gradient."""
     lanes = evaluation.lanes
-    rows = [["cost", *_FOUR, "error", "of HH's", *(("LUT4 a lane", "multipliers") if lanes else ())]]
+    rows = [["cost", *_FOUR, "error", "of HH's", *(("LUT4 per lane", "multipliers") if lanes else ())]]
     for method in evaluation.fuzzy:
         s = evaluation.score(method)
         values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
@@ -104,14 +104,14 @@ def fuzzy(evaluation: Evaluation) -> Table:
         rows.append([method, *(f"{v:.2f}" for v in values), f"{evaluation.ratio(method, 'hh'):.3f}", *taken])
     text = (
         "The sum of census, gradient over 5x5 and gradient over 9x9, and fuzzy inference over the same three"
-        " (labels at 2^8, 2^8 and 2^9), all with the post-processing of `robust`. Below, the preset `paper`"
-        " with invalid pixels filled, on colours as the paper has it and on the gradient (labels at 2^10)."
+        " (labels at 2^8, 2^8 and 2^9), all with the post-processing of `robust`. Below them is the preset"
+        " `paper` with invalid pixels filled, on colours as in the paper, and on the gradient (labels at 2^10)."
     )
     if lanes:
         text += (
-            f" *LUT4 a lane*: on ECP5 (`{'`, `'.join(CORE)}`), what compares and sums a candidate's pixels"
-            " and makes its cost of them, without the winners. *Multipliers*: the core's, divided by its"
-            " lanes."
+            " *LUT4 per lane* counts what compares a candidate's pixels, sums them and makes a cost of the"
+            f" sums, without the winners, on ECP5 (`{'`, `'.join(CORE)}`). *Multipliers* are the core's,"
+            " divided by its lanes."
         )
     return Table("Fuzzy or not", text, rows)
 
@@ -130,9 +130,9 @@ def confidence(evaluation: Evaluation) -> Table:
             )
             rows.append([f"`{name}`", *(f"{sum(v) / len(v):.2f}" for v in figures)])
     text = (
-        "Per cent of the measured pixels of known truth, mean of the scenes. *Area* is that under the"
-        " sparsification curve: the mean of it, as the least sure 0 to 95 % are left out. *Best area* is the"
-        " same with the worst errors left out first."
+        "Per cent of the measured pixels with known truth, as a mean over the scenes. *Area* is the area under"
+        " the sparsification curve, that is, its mean while the least sure 0 to 95 % are left out. *Best area*"
+        " is the same if the worst errors are left out first."
     )
     return Table("Confidence", text, rows)
 

@@ -45,17 +45,16 @@ def covered(*rooms: str) -> tuple[str, ...]:
 
 def sources_hash(*rooms: str, further: tuple[Path, ...] = ()) -> str:
     """20 hex digits that tell the sources of `rooms`, what they build on, extensions and `further`."""
-    digest = hashlib.sha256(_rooms_hash(covered(*rooms)))
+    digest = hashlib.sha256(_rooms_hash(tuple((room, folder(room)) for room in covered(*rooms))))
     for file in (*extension_files(), *further):
         digest.update(file.name.encode() + b"\0" + file.read_bytes())
     return digest.hexdigest()[:20]
 
 
 @lru_cache
-def _rooms_hash(rooms: tuple[str, ...]) -> bytes:
+def _rooms_hash(places: tuple[tuple[str, Path], ...]) -> bytes:
     digest = hashlib.sha256()
-    for room in rooms:
-        place = folder(room)
+    for room, place in places:
         for file in sorted(place.rglob("*.py")):
             digest.update(f"{room}/{file.relative_to(place)}".encode() + b"\0" + file.read_bytes())
     return digest.digest()

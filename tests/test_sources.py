@@ -55,7 +55,5 @@ def test_an_edited_file_changes_the_rooms_that_build_on_it(tmp_path, monkeypatch
     (edited / "core.py").write_text("")
     original = sources.folder
     monkeypatch.setattr(sources, "folder", lambda room: edited if room == "hdl" else original(room))
-    sources._rooms_hash.cache_clear()
     changed = {room for room in BUILDS_ON if sources_hash(room) != before[room]}
-    sources._rooms_hash.cache_clear()
     assert changed == {room for room in BUILDS_ON if "hdl" in covered(room)}

@@ -11,7 +11,7 @@ Array = NDArray[Any]
 def down(values: Array, rows: int) -> Array:
     """Sums of every `rows` consecutive rows: h x w in, (h - rows + 1) x w out."""
     height = values.shape[0] - rows + 1
-    # Sums of 1, 2, 4, .. rows; those that add up to `rows`, one below the other.
+    # Sums of 1, 2, 4, .. rows are doubled up; those whose lengths add up to `rows` go one below the other.
     total, done, power, reach = None, 0, values, 1
     while True:
         if rows & reach:
@@ -27,18 +27,7 @@ def down(values: Array, rows: int) -> Array:
 
 def along(values: Array, columns: int) -> Array:
     """Sums of every `columns` consecutive columns: h x w in, h x (w - columns + 1) out."""
-    width = values.shape[1] - columns + 1
-    total, done, power, reach = None, 0, values, 1
-    while True:
-        if columns & reach:
-            part = power[:, done : done + width]
-            total = part if total is None else total + part
-            done += reach
-        if 2 * reach > columns:
-            assert total is not None
-            return total
-        power = power[:, : power.shape[1] - reach] + power[:, reach:]
-        reach *= 2
+    return down(values.T, columns).T
 
 
 def rows_with_zeros(plane: Array, first: int, stop: int) -> Array:

@@ -5,6 +5,7 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In
 
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.costs.border import in_border
 from softdepth.hdl.costs.bundle import cost_ports
 from softdepth.hdl.costs.column_groups import join_columns
 from softdepth.hdl.costs.comparison import LIKE_BITS, plan
@@ -176,7 +177,7 @@ class WholeCosts(wiring.Component):
         inside = at(slot.inside, column_time, "in")
         supports = Signal(supports_layout(plan_))
         self._weights(m, colour, first[column_time], inside, supports)
-        border = self._border(m, slots)
+        border = in_border(m, self._config, plan_, slots)
         centre = self._centre(m, colour, first[column_time])
         rows_inside = Signal(inside_layout(plan_))
         for running, lag in sorted({(c.running, lag) for c in plan_.columns for lag in c.lags}):
@@ -241,18 +242,6 @@ class WholeCosts(wiring.Component):
             self.tags.colour.eq(at(centre, cost_time - column_time - 1, "centre")),
         ]
         return m
-
-    def _border(self, m: Module, slots: Slots) -> Value:
-        """Whether the pixel that a slot judges lies in the border band, in the clocks of the slot."""
-        config, plan_, slot = self._config, self._plan, slots.slot
-        if config.whole_frame:
-            return Const(0, 1)
-        # Of the rows and columns that it sees, those farthest away: the slot's own pixel is ``below`` rows
-        # under it, and ``right`` columns beside.
-        low, high = slot.rows[plan_.below - config.reach_rows], slot.rows[plan_.below + config.reach_rows]
-        m.submodules.seen = seen = Delay(1, plan_.right - config.reach_right)
-        m.d.comb += [seen.en.eq(slots.last), seen.i.eq(slot.inside)]
-        return ~(low & high & seen.o & (slot.x >= plan_.right + config.reach_left))
 
     def _weights(self, m: Module, colour: Value, enters: Value, inside: Value, supports: data.View) -> None:
         """The supports of the pixel that is judged, when the newest of its column sums is there."""

@@ -1,4 +1,4 @@
-"""The criteria of a configuration, and what each states of itself."""
+"""The criteria of a configuration, and what each says about itself."""
 
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
@@ -18,15 +18,14 @@ SUPPORT_SHIFT = 10
 
 
 class AnyCriterion(Frozen):
-    """What every criterion states of itself; a further one is a subclass, registered in `CRITERIA`.
+    """What every criterion says about itself; a new one is a subclass, registered in `CRITERIA`.
 
-    Fields of each: ``kind``, its name, and ``label_bits``. Memberships have their labels at 0, T and 2T
+    Each has the fields ``kind``, its name, and ``label_bits``. Memberships have their labels at 0, T and 2T
     with ``T = 2**label_bits``; larger values saturate at 2T.
 
-    ``whole_frame``: it says itself what lies outside the image, and has a value in every pixel. Those
-    of the others have none whose support leaves the image; how far that extends around the reference
-    pixel is said by the reaches, in pixels, negative where it begins beyond it. ``rows_above``: rows above
-    its newest that lanes give it anew, fewer than its support has where it remembers some by itself.
+    With ``whole_frame``, the criterion itself says what lies outside the image, and has a value in every
+    pixel. Other criteria have no value where their support leaves the image. The reaches say how far the
+    support extends around the reference pixel; they are negative if it begins beyond it.
     """
 
     whole_frame: ClassVar[bool] = False
@@ -36,7 +35,7 @@ class AnyCriterion(Frozen):
 
     @property
     def reach_left(self) -> int:
-        """Columns left of the reference pixel, of a band without a result."""
+        """Columns of the support left of the reference pixel."""
         return 0
 
     @property
@@ -61,12 +60,12 @@ class AnyCriterion(Frozen):
 
     @property
     def reciprocals(self) -> tuple[int, ...]:
-        """What the sum of 1, 2, ... columns is multiplied by to be a mean: of several, a table in memory."""
+        """Factors that turn the sum of 1, 2, ... columns into their mean; several are a table in memory."""
         return ()
 
     @property
     def rows_above(self) -> int:
-        """Rows above its support's newest that are compared anew."""
+        """Rows above its support's newest that are compared anew, without those that it remembers."""
         return 2 * self.reach_rows
 
     def maximum_of(self, pixel: PixelFormat) -> int:
@@ -81,11 +80,10 @@ CRITERIA: Registry[type[AnyCriterion]] = Registry("criterion")
 class Sad(AnyCriterion):
     """Criterion: sum of absolute differences over ``window x window`` pixels and channels (eq. 7).
 
-    The window is centred ``dx`` pixels right of the reference pixel. Memberships have their labels
-    at 0, T and 2T with ``T = 2**label_bits``; larger sums saturate at 2T. ``source = "gradient"``
-    compares the luma's horizontal gradient, held within +-`GRADIENT_CAP`, in place of the colours.
-    The costs of the window's `stored_rows` upper rows come from block RAM in place of being computed anew,
-    which changes no value. All SADs of a lane share one column: the most that one of them says holds.
+    The window is centred ``dx`` pixels right of the reference pixel. ``source = "gradient"`` compares the
+    luma's horizontal gradient, held within +-`GRADIENT_CAP`, instead of the colours. The costs of the
+    window's upper `stored_rows` rows come from block RAM instead of being computed anew, which changes no
+    value. All SADs of a lane share one column, and the largest `stored_rows` among them holds.
     """
 
     kind: Literal["sad"] = "sad"  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -127,7 +125,7 @@ class Sad(AnyCriterion):
 
     @property
     def rows_above(self) -> int:
-        """The window's, without those from memory."""
+        """The window's rows, without those from memory."""
         return self.window - 1 - self.stored_rows
 
     def maximum_of(self, pixel: PixelFormat) -> int:
@@ -141,21 +139,21 @@ class Sad(AnyCriterion):
 
 
 class Census(AnyCriterion):
-    """Criterion: unlike census bits, summed down a column and over columns of like colour.
+    """Criterion: census bits that differ, summed down a column and over columns of similar colour.
 
     The 24 bits of a pixel say which of the black squares of a 7x7 chessboard around it are darker
-    (luma) than it is. The Hamming distance of both views' bits, or `neutral` where the partner lies
-    left of the right image, is summed over `rows` rows. Of `taps` such columns, `spacing` apart and
-    centred on the pixel, those count that lie in the image and whose pixel (of the reference view, in the
-    same row) is less than `like` from the centre's in every channel: with n of them, and their sum s,
-    the value is ``s * round(4096 / n) >> 10``, four times their mean. One tap, the centre, is no
-    support: four times the column.
+    (luma) than the pixel. The Hamming distance between the bits of both views, or `neutral` if the partner
+    lies left of the right image, is summed over `rows` rows. There are `taps` such columns, `spacing` apart
+    and centred on the pixel. A column counts if it lies in the image and if its pixel (in the reference view
+    and the same row) differs from the centre by less than `like` in every channel. With n such columns and
+    their sum s, the value is ``s * round(4096 / n) >> 10``, four times their mean. With a single tap, the
+    centre, it is four times that column.
 
     What lies outside the image counts 0, and every pixel has a value. `like` is in units of 8-bit
-    values: with 256 every column counts. Labels as in `Sad`.
+    values; with 256, every column counts.
 
-    With `running_sums` the sums down the columns lie in block RAM, of which a row enters and one leaves;
-    else all rows are compared anew, which takes more logic, less memory, and changes no value.
+    With `running_sums`, the sums down the columns are kept in block RAM, and one row enters and one leaves.
+    Without, all rows are compared anew, which takes more logic and less memory, and changes no value.
     """
 
     whole_frame: ClassVar[bool] = True
@@ -192,7 +190,7 @@ class Census(AnyCriterion):
         return self.bits * self.rows
 
     def maximum_of(self, pixel: PixelFormat) -> int:
-        """`maximum`, whatever the pixels."""
+        """`maximum`, for any pixels."""
         return self.maximum
 
     @property
@@ -208,7 +206,7 @@ class Census(AnyCriterion):
 
     @property
     def products(self) -> int:
-        """One by the reciprocal, with a support."""
+        """One, by the reciprocal, if there is a support."""
         return int(self.taps > 1)
 
     @property
@@ -224,9 +222,8 @@ class Gradient(AnyCriterion):
     """Criterion: differences of the horizontal gradient, summed over ``rows x columns`` pixels.
 
     The gradient is the luma's Sobel, edges replicated, held within +-`cap`. A pixel's difference is at
-    most `truncation`; it is `neutral` where the partner lies left of the right image. What lies
-    outside the image counts 0, and every pixel has a value. Labels as in `Sad`, and `running_sums` as in
-    `Census`.
+    most `truncation`, and `neutral` if the partner lies left of the right image. What lies outside the
+    image counts 0, and every pixel has a value. `running_sums` as in `Census`.
     """
 
     whole_frame: ClassVar[bool] = True
@@ -250,7 +247,7 @@ class Gradient(AnyCriterion):
         return self
 
     def maximum_of(self, pixel: PixelFormat) -> int:
-        """`maximum`, whatever the pixels."""
+        """`maximum`, for any pixels."""
         return self.maximum
 
     @property
@@ -285,11 +282,11 @@ CRITERIA.register("gradient", Gradient)
 
 
 UNKNOWN_KIND = "unknown_kind"
-"""The type of the error that a criterion of no known kind gives."""
+"""The type of the error for a criterion of an unknown kind."""
 
 
 def criterion_of(data: Any) -> AnyCriterion:
-    """The criterion that plain data describe; without a `kind` it is a SAD."""
+    """The criterion that plain data describe: a SAD if they have no `kind`."""
     if isinstance(data, AnyCriterion):
         return data
     kind = data.get("kind", "sad") if isinstance(data, dict) else "sad"

@@ -1,14 +1,15 @@
 """Operators and criteria by name: those of the project, and those of others' modules.
 
-Each of the two is described in three places that do not know each other: what it is (`softdepth.spec`), its
-model (`softdepth.golden`), its gateware (`softdepth.hdl`). Each place has a `Registry`. One of your own takes
-two modules: one registers statement and model, one the gateware. They are found by the environment variable
-``SOFTDEPTH_EXTENSIONS`` (module names, separated by commas) or as entry points of the group
-``softdepth.extensions``.
+Each operator or criterion is described in three places that do not know each other: what it is
+(`softdepth.spec`), its model (`softdepth.golden`) and its gateware (`softdepth.hdl`). Each place has a
+`Registry`. Your own needs two modules: one registers what it is and its model, the other its gateware. They
+are found through the environment variable ``SOFTDEPTH_EXTENSIONS`` (module names, separated by commas), or as
+entry points of the group ``softdepth.extensions``.
 """
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
+from contextlib import contextmanager
 from functools import lru_cache
 from importlib import import_module
 from importlib.metadata import entry_points
@@ -25,7 +26,7 @@ T = TypeVar("T")
 class Registry(Mapping[str, T]):
     """Things by name, in the order in which they were registered.
 
-    Whoever asks for all names, or for one that is missing, has the extensions loaded first.
+    Asking for all names, or for one that is missing, loads the extensions first.
     """
 
     def __init__(self, what: str) -> None:
@@ -33,7 +34,7 @@ class Registry(Mapping[str, T]):
         self._items: dict[str, T] = {}
 
     def register(self, name: str, item: T) -> T:
-        """Add `item`; raises `ConfigError` where another has its name."""
+        """Add `item`; raises `ConfigError` if another one has its name."""
         if self._items.get(name, item) != item:
             raise ConfigError(f"there is a second {self._what} '{name}'", "give one of them another name")
         self._items[name] = item
@@ -61,6 +62,16 @@ class Registry(Mapping[str, T]):
         """All names, for messages."""
         return ", ".join(self)
 
+    @contextmanager
+    def scope(self, without: Container[str] = ()) -> Iterator[None]:
+        """What is registered within the block is forgotten after it; names in `without` are unknown in it."""
+        before = self._items
+        self._items = {name: item for name, item in before.items() if name not in without}
+        try:
+            yield
+        finally:
+            self._items = before
+
 
 def load_extensions() -> None:
     """Import the modules named by ``SOFTDEPTH_EXTENSIONS`` and by entry points, each once.
@@ -73,7 +84,7 @@ def load_extensions() -> None:
         except ImportError as error:
             raise ConfigError(
                 f"the extension '{name}' cannot be imported: {error}",
-                f"mend it, or take it out of {VARIABLE}",
+                f"fix it, or take it out of {VARIABLE}",
             ) from error
 
 
@@ -84,7 +95,7 @@ def extension_modules() -> tuple[str, ...]:
 
 
 def extension_files() -> tuple[Path, ...]:
-    """The extensions' source files: what they give depends on them."""
+    """The extensions' source files, which their results depend on."""
     found = (import_module(name).__file__ for name in extension_modules())
     return tuple(Path(file) for file in found if file)
 

@@ -95,11 +95,11 @@ def measure(config: Config, preset: str, family: str, *, known: Iterable[FamilyR
 
 
 def measure_all(
-    rows: Sequence[Selection] = ROWS, *, known: Sequence[FamilyRow] = (), **sizes: int
+    rows: Sequence[Selection] | None = None, *, known: Sequence[FamilyRow] = (), **sizes: int
 ) -> list[FamilyRow]:
-    """Each core in each family; `sizes` are those of `Selection.config`."""
+    """Each core (those of `ROWS` if none are given) in each family; `sizes` as in `Selection.config`."""
     found = []
-    for row in rows:
+    for row in ROWS if rows is None else rows:
         config = row.config(**sizes)
         for family, target in OTHER_FAMILIES.items():
             screen.note(f"{row}: {target.title}")

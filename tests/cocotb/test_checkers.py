@@ -3,13 +3,11 @@
 from collections.abc import Callable
 
 import pytest
-from amaranth.hdl import Module
+from amaranth.hdl import Module, ShapeLike
 from amaranth.lib import fifo, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.pipeline import Pipeline
-from softdepth.hdl.arithmetic.word import Word
-from softdepth.hdl.costs import band_costs
+from softdepth.hdl.costs import band_costs, cost
 from softdepth.hdl.costs.criteria import column_sad, row_memory
 from softdepth.hdl.costs.fuzzy import cell_inference, mean_inference, rule_array
 from softdepth.hdl.front import line_buffer
@@ -47,11 +45,15 @@ def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
     """The line buffer is off by one: its columns end a line above the pixel."""
 
     class Shifted(line_buffer.LineBuffer):
+        def __init__(self, width: int, rows: int, max_width: int) -> None:
+            super().__init__(width, rows, max_width)
+            self.inner = line_buffer.LineBuffer(width, rows + 1, max_width)
+
         def elaborate(self, platform: object) -> Module:
             m = Module()
-            m.submodules.inner = inner = line_buffer.LineBuffer(self._width, self._rows + 1, self._depth)
+            m.submodules.inner = inner = self.inner
             m.d.comb += [inner.en.eq(self.en), inner.x.eq(self.x), inner.pixel.eq(self.pixel)]
-            m.d.comb += [self.column[row].eq(inner.column[row]) for row in range(self._rows)]
+            m.d.comb += [row.eq(inner.column[k]) for k, row in enumerate(self.column)]
             return m
 
     monkeypatch.setattr(band_costs, "LineBuffer", Shifted)
@@ -93,9 +95,13 @@ def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:
     """The two remembered rows change places: sums over all rows are as before, those over fewer are not."""
 
     class Swapped(row_memory.RowMemory):
+        def __init__(self, shape: ShapeLike, rows: int, places: int) -> None:
+            super().__init__(shape, rows, places)
+            self.inner = row_memory.RowMemory(shape, rows, places)
+
         def elaborate(self, platform: object) -> Module:
             m = Module()
-            m.submodules.inner = inner = row_memory.RowMemory(range(766), 2, self._places)
+            m.submodules.inner = inner = self.inner
             m.d.comb += [inner.valid.eq(self.valid), inner.place.eq(self.place), inner.newest.eq(self.newest)]
             m.d.comb += [self.rows[k].eq(inner.rows[1 - k]) for k in range(2)]
             return m
@@ -103,22 +109,28 @@ def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(column_sad, "RowMemory", Swapped)
 
 
-def forget_a_sign(monkeypatch: pytest.MonkeyPatch) -> None:
-    """MEAN's closed form takes criterion 2 to lie on the side of its label on which criterion 3 does."""
+def confuse_the_criteria(monkeypatch: pytest.MonkeyPatch) -> None:
+    """MEAN's closed form is given criterion 3 as its second: which of them counts more is lost."""
 
-    original = mean_inference.MeanInference._distances
+    class Confused(cost.MeanInference):
+        def __init__(self, config: Config, maxima: list[int]) -> None:
+            super().__init__(config, maxima)
+            self.inner = mean_inference.MeanInference(config, maxima)
 
-    def of_one_side(self: mean_inference.MeanInference, pipe: Pipeline) -> tuple[list[Word], list[Word]]:
-        distances, (_, y_below, z_below) = original(self, pipe)
-        return distances, [y_below, y_below, z_below]
+        def elaborate(self, platform: object) -> Module:
+            m = Module()
+            m.submodules.inner = inner = self.inner
+            m.d.comb += [inner.i.s0.eq(self.i.s0), inner.i.s1.eq(self.i.s2), inner.i.s2.eq(self.i.s2)]
+            m.d.comb += [self.num.eq(inner.num), self.den.eq(inner.den)]
+            return m
 
-    monkeypatch.setattr(mean_inference.MeanInference, "_distances", of_one_side)
+    monkeypatch.setattr(cost, "MeanInference", Confused)
 
 
 FAULTS: dict[Callable[[pytest.MonkeyPatch], None], tuple[Config, type[Exception], str]] = {
     break_a_rule: (RULES, AssertionError, "criteria or inference"),
     correct_the_table: (CELL, AssertionError, "criteria or inference"),
-    forget_a_sign: (CONFIG, AssertionError, "criteria or inference"),
+    confuse_the_criteria: (CONFIG, AssertionError, "criteria or inference"),
     take_rows_in_the_wrong_order: (CONFIG, AssertionError, "criteria, inference or argmin"),
     shift_the_line_buffer: (CONFIG, AssertionError, r"line buffer \(as of the line above\)"),
     drop_under_back_pressure: (CONFIG, ToolError, "results or sequencer"),

@@ -73,7 +73,7 @@ def test_combination(name: str) -> None:
 def test_a_border_band_that_is_judged_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     c = COMBINATIONS["SADs of gradients, summed"]
     pairs = frames(c)
-    monkeypatch.setattr(whole_costs.WholeCosts, "_border", lambda self, m, slots: Const(0, 1))
+    monkeypatch.setattr(whole_costs, "in_border", lambda *_: Const(0, 1))
     with pytest.raises(AssertionError, match="y=0 x=0"):
         check(results(c, pairs), [disparity(*pair, c) for pair in pairs])
 

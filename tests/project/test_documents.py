@@ -118,6 +118,15 @@ def test_sources_that_are_named_exist(project):
                 )
 
 
+def test_every_file_of_the_gateware_has_its_place_on_the_page(project):
+    """By its name, or by its folder's."""
+    named = set(re.findall(r"`(hdl/[\w./]+)`", (project / "docs" / "gateware.md").read_text()))
+    files = {path.relative_to(project).as_posix() for path in (project / "hdl").rglob("[!_]*.py")}
+    folders = tuple(name for name in named if name.endswith("/"))
+    assert {file for file in files - named if not file.startswith(folders)} == set()
+    assert "hdl/costs/" not in folders  # rooms are told file by file
+
+
 def test_the_clocks_per_pixel_are_defined_in_one_way(project):
     """From the first pixel taken to the last, in the code as in the document."""
     text = (project / "docs" / "report.md").read_text()

@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Iterator
+from contextlib import ExitStack
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,6 @@ from softdepth.golden.costs.fuzzy.operators import FLOAT
 from softdepth.hdl.built import check_built, missing
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.costs import lane
-from softdepth.hdl.costs.criteria.sad import SadCriteria
 from softdepth.hdl.costs.fuzzy.operators import CELL_OPERATORS, OPERATORS
 from softdepth.sim.transfers import pack_frame
 from softdepth.sources import sources_hash
@@ -49,12 +49,13 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 @pytest.fixture(autouse=True)
 def toys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The tutorial's code is known within a test, and unknown to all others of this process."""
-    for registry in REGISTRIES:
-        monkeypatch.setattr(registry, "_items", dict(registry._items))
     names = write_files(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv(VARIABLE, ",".join(names))
-    yield
+    with ExitStack() as scopes:
+        for registry in REGISTRIES:
+            scopes.enter_context(registry.scope())
+        yield
     for name in names:
         sys.modules.pop(name, None)
 
@@ -127,10 +128,10 @@ def test_without_gateware_of_the_cell_it_is_refused() -> None:
         StereoCore(core(operator="any", firing="cell"))
 
 
-def test_a_kind_without_gateware_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_kind_without_gateware_is_refused() -> None:
     assert "spot" in lane.CRITERIA
-    monkeypatch.setattr(lane.CRITERIA, "_items", {"sad": SadCriteria})
-    with pytest.raises(ConfigError, match=r"'custom' has no gateware: criteria\.1 of kind 'spot';"):
+    without = lane.CRITERIA.scope(without={"spot"})
+    with without, pytest.raises(ConfigError, match=r"'custom' has no gateware: criteria\.1 of kind 'spot';"):
         check_built(core())
 
 
@@ -140,10 +141,10 @@ def test_a_kind_without_a_band_has_a_model_only(monkeypatch: pytest.MonkeyPatch)
     assert not missing(core())
     needs = "criteria.1 of kind 'spot' where others, or what is behind the winners, need sums down columns"
     assert missing(core(post={"fill": True})) == (needs,)
-    monkeypatch.setattr(lane.CRITERIA, "_items", {"sad": SadCriteria})
     alone = {"cost": "sum", "criteria": [{"kind": "census"}, {"kind": "spot"}]}
-    assert missing(core(**alone)) == ("criteria.1 of kind 'spot'",)
-    told = facts(core(**alone), 100.0, 64, 48)
+    with lane.CRITERIA.scope(without={"spot"}):
+        assert missing(core(**alone)) == ("criteria.1 of kind 'spot'",)
+        told = facts(core(**alone), 100.0, 64, 48)
     assert told["gateware"] == "none of criteria.1 of kind 'spot': models alone"
     assert told["latency"].startswith("7 rows below")
     assert "gateware" not in facts(Config.preset("robust"), 100.0, 64, 48)

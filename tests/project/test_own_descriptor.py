@@ -1,6 +1,7 @@
 """A criterion with a descriptor of its own, in a core without a border band: two files, here in one."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from itertools import chain
 from typing import Any, ClassVar, Literal
 
@@ -106,16 +107,18 @@ def comparison(criterion: Brighter, pixel: PixelFormat) -> Comparison:
 
 
 @pytest.fixture(autouse=True)
-def known(monkeypatch: pytest.MonkeyPatch) -> None:
+def known() -> Iterator[None]:
     """The criterion is known within a test."""
     registries: tuple[tuple[Any, Any], ...] = (
         (CRITERIA, Brighter),
         (EVALUATE, BrighterValues),
         (COMPARISONS, comparison),
     )
-    for registry, item in registries:
-        monkeypatch.setattr(registry, "_items", dict(registry._items))
-        registry.register("brighter", item)
+    with ExitStack() as scopes:
+        for registry, item in registries:
+            scopes.enter_context(registry.scope())
+            registry.register("brighter", item)
+        yield
 
 
 @pytest.mark.parametrize("others", [[], [{"kind": "gradient", "rows": 3, "columns": 3}]], ids=len)

@@ -5,13 +5,16 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
+from unittest.mock import ANY
 from uuid import uuid4
 
 import pytest
 
 from softdepth.sim.build import TOP, build
 from softdepth.sim.build_cache import locked
+from softdepth.sim.toolchain import find_toolchain
 from softdepth.spec.errors import ToolError
 
 
@@ -26,6 +29,18 @@ def new_design(stand_in: Callable[..., str]) -> Iterator[str]:
         folder.with_suffix(suffix).unlink()
 
 
+@pytest.fixture
+def quick_tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs in place of Verilator and make, which leave a program without compiling anything."""
+    scripts = {"verilator": "mkdir -p obj", "make": f"touch obj/{TOP} obj/verilated.o"}
+    for name, script in scripts.items():
+        (tmp_path / name).write_text(f"#!/bin/sh\n{script}\n")
+        (tmp_path / name).chmod(0o755)
+    tools = replace(find_toolchain(), verilator=tmp_path / "verilator", make=tmp_path / "make")
+    monkeypatch.setattr("softdepth.sim.build.find_toolchain", lambda: tools)
+    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path / "cache"))
+
+
 def test_builds_once_even_when_asked_twice_at_the_same_time(new_design: str) -> None:
     with ProcessPoolExecutor(2) as pool:
         first, second = pool.map(build, [new_design] * 2)
@@ -38,12 +53,12 @@ def test_builds_once_even_when_asked_twice_at_the_same_time(new_design: str) -> 
 
 
 def test_another_design_or_flag_is_another_build(
-    stand_in: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+    quick_tools: None, stand_in: Callable[..., str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     one = build(stand_in())
+    assert build(stand_in()) == replace(one, cached=True, seconds=ANY)
     assert build(stand_in("hangs")).folder != one.folder
     monkeypatch.setattr("softdepth.sim.build.MAKE_FLAGS", ("OPT_FAST=-O0", "OPT_SLOW=-O0", "OPT_GLOBAL=-O0"))
-    monkeypatch.setattr("softdepth.sim.build._build", lambda *arguments: None)
     other = build(stand_in())
     assert other.folder != one.folder
     assert not other.cached
@@ -92,19 +107,15 @@ def test_a_cache_that_cannot_be_written(
 
 @pytest.mark.parametrize("written", ["copy2", "copyfile"], ids=["the result", "what is reused"])
 def test_a_full_disk_is_told_in_a_line(
-    stand_in: Callable[..., str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, written: str
+    quick_tools: None,
+    stand_in: Callable[..., str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    written: str,
 ) -> None:
-    monkeypatch.setenv("SOFTDEPTH_CACHE", str(tmp_path))
-
-    def compile_(_command: object, folder: Path, *_: object) -> None:
-        (folder / "obj").mkdir(exist_ok=True)
-        for name in (TOP, "verilated.o"):
-            (folder / "obj" / name).touch()
-
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("softdepth.sim.build._run", compile_)
     build(stand_in())  # Verilator's own library is kept from now on
     monkeypatch.setattr(shutil, written, full)
     with pytest.raises(ToolError, match=r"kept in '.*no space left on device; make room") as error:

@@ -18,24 +18,10 @@ from softdepth.spec.config import Config
 from softdepth.studies import other_families, utilization, utilization_page
 from softdepth.studies.utilization import PART, Row, Selection, row_of
 
-KEYS = [
-    "device",
-    "preset",
-    "operator",
-    "disparities",
-    "lanes",
-    "width",
-    "lut4",
-    "ff",
-    "ebr",
-    "dsp",
-    "fmax_mhz",
-    "cycles_per_pixel",
-    "mpixel_s",
-    "mde_s",
-    "mde_s_per_klut",
-    "lut4_per_lane",
-]
+KEYS = (
+    "device preset operator disparities lanes width lut4 ff ebr dsp fmax_mhz"
+    " cycles_per_pixel mpixel_s mde_s mde_s_per_klut lut4_per_lane"
+)
 
 PATH = CriticalPath("core.a", "core.b", 8.0, 5)
 
@@ -76,7 +62,7 @@ def test_a_row_has_the_documented_keys_and_figures():
         "mde_s_per_klut": 250.0,
         "lut4_per_lane": 500.0,
     }
-    assert list(row().model_dump()) == KEYS
+    assert " ".join(row().model_dump()) == KEYS
 
 
 @pytest.mark.parametrize(
@@ -222,7 +208,7 @@ def test_the_command_writes_both_files(runs, tmp_path, capfd):
     assert main(["utilization", *rows, "-o", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "utilization.json").read_text())
     assert [(r["preset"], r["lanes"]) for r in data["rows"]] == [("paper", 4), ("sad", 8)]
-    assert all(list(r) == KEYS for r in data["rows"])
+    assert all(" ".join(r) == KEYS for r in data["rows"])
     assert data["runs"][0]["seed"] == 1
     page = (tmp_path / "utilization.md").read_text()
     assert "| paper | mean | LFE5U-85F-6 | 64 | 4 | 1280 | 8,000 | 9,000 | 12 | 196 | 34 | 125.0 |" in page

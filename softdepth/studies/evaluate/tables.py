@@ -58,10 +58,10 @@ def overview(evaluation: Evaluation) -> Table:
         measured = "-" if score.measured is None else f"{score.measured:.1f} %"
         rows.append([evaluation.methods[method], *(f"{v:.2f}" for v in values), *ratios, measured])
     text = (
-        f"Per cent of the pixels with known truth that are off by more than 1 and 2 px, as a mean over"
-        f" {len(evaluation.scenes)} scenes. *Error* is the mean of the four. *Of HH's* and *of SGBM's* are the"
-        " geometric mean over scenes of the ratio to that matcher's error on the same scene. *Measured* is the"
-        " share of pixels that were not filled."
+        "Per cent of the pixels with known truth that are off by more than 1 and 2 px, as a mean over"
+        f" {len(evaluation.scenes)} scenes. *Error* is the mean of the four. *Of HH's* and *of SGBM's* are"
+        " the geometric mean over scenes of the ratio to that matcher's error on the same scene. *Measured*"
+        " is the share of pixels that were not filled."
     )
     return Table("All scenes", text, rows)
 
@@ -105,7 +105,8 @@ def fuzzy(evaluation: Evaluation) -> Table:
     text = (
         "The sum of census, gradient over 5x5 and gradient over 9x9, and fuzzy inference over the same three"
         " (labels at 2^8, 2^8 and 2^9), all with the post-processing of `robust`. Below them is the preset"
-        " `paper` with invalid pixels filled, on colours as in the paper, and on the gradient (labels at 2^10)."
+        " `paper` with invalid pixels filled, on colours as in the paper, and on the gradient (labels at"
+        " 2^10)."
     )
     if lanes:
         text += (
@@ -130,9 +131,9 @@ def confidence(evaluation: Evaluation) -> Table:
             )
             rows.append([f"`{name}`", *(f"{sum(v) / len(v):.2f}" for v in figures)])
     text = (
-        "Per cent of the measured pixels with known truth, as a mean over the scenes. *Area* is the area under"
-        " the sparsification curve, that is, its mean while the least sure 0 to 95 % are left out. *Best area*"
-        " is the same if the worst errors are left out first."
+        "Per cent of the measured pixels with known truth, as a mean over the scenes. *Area* is the area"
+        " under the sparsification curve, that is, its mean while the least sure 0 to 95 % are left out."
+        " *Best area* is the same if the worst errors are left out first."
     )
     return Table("Confidence", text, rows)
 

@@ -66,9 +66,7 @@ def test_changed_sources_invalidate(tmp_path, monkeypatch):
         file.write("# edited\n")
     folder = sources.folder
     monkeypatch.setattr(sources, "folder", lambda room: edited if room == "spec" else folder(room))
-    sources._rooms_hash.cache_clear()
     assert store.get(CELL, "images") is None
-    sources._rooms_hash.cache_clear()
 
 
 def test_the_gateware_has_more_sources():

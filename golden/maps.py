@@ -113,14 +113,16 @@ class DisparityMap:
         Raises `InputError` if the shapes or units differ, or if only one has confidences.
         """
         if self.shape != got.shape:
-            raise InputError(f"expected a {self.shape} map, got {got.shape}", "compare maps of one frame")
+            raise InputError(
+                f"expected a {self.shape} map, got {got.shape}", "compare maps of the same frame"
+            )
         mine, other = (
             (found.fraction_bits, "no" if found.confidence is None else "a") for found in (self, got)
         )
         if mine != other:
             raise InputError(
                 f"expected {mine[0]} fraction bits and {mine[1]} confidence, got {other[0]} and {other[1]}",
-                "compare maps of one configuration",
+                "compare maps of the same configuration",
             )
         return self._differences(got)
 

@@ -125,7 +125,7 @@ def _maps(
 
 def _check(config: Config, pairs: Sequence[Pair], eof: bool) -> None:
     if not pairs:
-        raise InputError("there is no stereo pair to simulate", "give one at least")
+        raise InputError("there is no stereo pair to simulate", "give at least one")
     for left, right in pairs:
         check_pair(left, right, config.pixel)
         height, width = left.shape[:2]

@@ -139,6 +139,6 @@ def _words(image: Image, pixel: PixelFormat, layout: StructLayout) -> Payloads:
 
 def _malformed(frame: int, first: int, problem: str) -> ToolError:
     return ToolError(
-        f"the core's results are no frames: frame {frame}, from result {first}: {problem}",
+        f"the core's results do not form frames: frame {frame}, from result {first}: {problem}",
         "this is a fault of the gateware; please report it with the configuration",
     )

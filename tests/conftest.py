@@ -19,7 +19,7 @@ def _folder(variable: str, what: str) -> Path:
         pytest.skip(f"{variable} is unset: it names a folder with {what}")
     folder = Path(value)
     if not folder.is_dir():
-        pytest.fail(f"{variable} is '{folder}', which is no folder")
+        pytest.fail(f"{variable} is '{folder}', which is not a folder")
     return folder
 
 

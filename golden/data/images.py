@@ -53,7 +53,8 @@ def read_pair(
     """
     if is_standard_input(left) and is_standard_input(right):
         raise InputError(
-            "both images are to come from standard input", "give one of them as a file, or --side-by-side"
+            "the two images cannot both come from standard input",
+            "give one of them as a file, or --side-by-side",
         )
     rasters = [read_raster(left), read_raster(right)]
     require_same_size(rasters[0].values, rasters[1].values, f"'{left}'", f"'{right}'")
@@ -74,8 +75,8 @@ def read_joined(
     if raster.values.shape[axis] % 2:
         what = "columns" if axis else "rows"
         raise InputError(
-            f"'{path}' is {size_text(raster.values)}: {raster.values.shape[axis]} {what} do not halve",
-            "give both views at one size, without anything between them",
+            f"'{path}' is {size_text(raster.values)}: {raster.values.shape[axis]} {what} cannot be halved",
+            "give both views at the same size, without anything between them",
         )
     halves = np.split(raster.values, 2, axis=axis)
     first, second = (replace(raster, values=half) for half in halves)
@@ -142,7 +143,7 @@ def _whites(rasters: Sequence[Raster], bits: int | None, notes: list[str]) -> tu
     largest = [int(raster.values.max(initial=0)) for raster in rasters]
     if bits is not None:
         if not 1 <= bits <= MAX_BITS:
-            raise InputError(f"--bits {bits} is no depth", f"use 1 to {MAX_BITS}")
+            raise InputError(f"--bits {bits} is not a number of bits", f"use 1 to {MAX_BITS}")
         for raster, value in zip(rasters, largest, strict=True):
             if value >= 2**bits:
                 raise InputError(

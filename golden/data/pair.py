@@ -69,7 +69,7 @@ class StereoPair:
                 )
         require_same_size(self.left, self.right, "the left image", "the right image")
         if self.left.ndim != self.right.ndim:
-            raise InputError("one image is gray and the other is RGB", "give two of a kind")
+            raise InputError("one image is gray and the other is RGB", "give two of the same kind")
 
     @property
     def height(self) -> int:
@@ -148,7 +148,7 @@ def require_same_size(left: np.ndarray, right: np.ndarray, left_name: str, right
     if left.shape[:2] != right.shape[:2]:
         raise InputError(
             f"{left_name} is {size_text(left)}, but {right_name} is {size_text(right)}",
-            "give two rectified images of one size",
+            "give two rectified images of the same size",
         )
 
 
@@ -157,5 +157,5 @@ def _channels_and_bits(pixel: Pixel | str) -> tuple[int, int]:
         return pixel.channels, pixel.bits
     match = _FORMAT.fullmatch(pixel)
     if match is None or not 1 <= int(match[2]) <= MAX_BITS:
-        raise InputError(f"'{pixel}' is no pixel format", "use one like rgb8, gray10 or gray12")
+        raise InputError(f"'{pixel}' is not a pixel format", "use one like rgb8, gray10 or gray12")
     return {"gray": 1, "rgb": 3}[match[1]], int(match[2])

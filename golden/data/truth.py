@@ -138,7 +138,7 @@ def _read_npy(data: bytes, path: str | Path) -> np.ndarray:
             values = np.load(io.BytesIO(data), allow_pickle=False)
     except Exception as error:  # NumPy raises what its header's parser raises
         raise InputError(
-            f"'{path}' is no readable NPY file", "save it again, as an array of floats"
+            f"'{path}' is not a readable NPY file", "save it again, as an array of floats"
         ) from error
     if values.dtype.kind not in "fiu":
         raise InputError(f"'{path}' holds {values.dtype} values", "save disparities as an array of floats")
@@ -157,7 +157,7 @@ def _ask_for_scale(levels: np.ndarray, found: str, path: str | Path, candidates:
     raise InputError(
         f"truth '{path}' has levels up to {largest}, fewer than the {max(candidates, scale)} it could have:"
         f" {scale} a pixel would make {largest / scale:.2g} px the largest disparity",
-        f"say --gt-scale 1 if a level is a pixel, or --gt-scale {scale} if that is right",
+        f"give --gt-scale 1 if a level is a pixel, or --gt-scale {scale} if that is right",
     )
 
 
@@ -171,7 +171,7 @@ def _require_sense(disparity: np.ndarray, path: str | Path) -> None:
         size = float(np.median(nonzero)) if nonzero.size else 0
         raise InputError(
             f"truth '{path}' holds disparities like {size:.2g} px in an image {width} wide",
-            "say --gt-scale N, and check the file's byte order",
+            "give --gt-scale N, and check the file's byte order",
         )
 
 
@@ -202,7 +202,8 @@ def cross_check(disparity: np.ndarray, other: np.ndarray, view: View = "left") -
     """
     if disparity.shape != other.shape:
         raise InputError(
-            f"the views' truths are {size_text(disparity)} and {size_text(other)}", "give both at one size"
+            f"the views' truths are {size_text(disparity)} and {size_text(other)}",
+            "give both at the same size",
         )
     column, inside = _partner(disparity, view)
     partner = np.take_along_axis(other, column, axis=1)

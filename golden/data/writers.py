@@ -76,7 +76,7 @@ def _valid(disparity: np.ndarray, valid: np.ndarray | None) -> np.ndarray:
         return finite
     if valid.shape != disparity.shape:
         raise InputError(
-            f"the valid mask has shape {valid.shape}, the map {disparity.shape}", "give both at one size"
+            f"the valid mask has shape {valid.shape}, the map {disparity.shape}", "give both at the same size"
         )
     return finite & valid.astype(bool)
 

@@ -42,7 +42,8 @@ def check_pair(left: Image, right: Image, pixel: PixelFormat = PixelFormat.RGB8)
     if left.shape != right.shape:
         (lh, lw), (rh, rw) = left.shape[:2], right.shape[:2]
         raise InputError(
-            f"the left image is {lw}x{lh}, the right image {rw}x{rh}", "give a rectified pair of one size"
+            f"the left image is {lw}x{lh}, the right image {rw}x{rh}",
+            "give a rectified pair of the same size",
         )
 
 

@@ -135,6 +135,7 @@ def error_picture(disparity: np.ndarray, truth: Truth, valid: np.ndarray | None 
 def _mask(disparity: np.ndarray, mask: np.ndarray, what: str) -> np.ndarray:
     if disparity.ndim != 2 or mask.shape != disparity.shape:
         raise InputError(
-            f"the disparity map has shape {disparity.shape}, the {what} {mask.shape}", "give both at one size"
+            f"the disparity map has shape {disparity.shape}, the {what} {mask.shape}",
+            "give both at the same size",
         )
     return mask.astype(bool)

@@ -51,8 +51,8 @@ class Device:
         have = self.description.config
         if have.hash != wanted.hash:
             raise ConfigError(
-                f"the board holds configuration {have.name} ({have.hash}), asked for is"
-                f" {wanted.name} ({wanted.hash})",
+                f"the board holds configuration {have.name} ({have.hash}), but"
+                f" {wanted.name} ({wanted.hash}) is asked for",
                 "leave the configuration out to use the board's, or build and load the other bitstream",
             )
 
@@ -126,7 +126,7 @@ class Device:
             idle = 0 if line else idle + 1
             if idle > MAX_IDLE_FETCHES:
                 raise ToolError(
-                    f"the board gave {came} of {height} lines and then nothing",
+                    f"the board sent {came} of {height} lines and then nothing",
                     "reset it, repeat the command; if it happens again, the bitstream is not sound",
                 )
             if line:

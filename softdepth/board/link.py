@@ -172,7 +172,7 @@ class Link:
             raise ToolError(problem, REBUILD)
         reason = packet.payload[0] if packet.payload else 0
         known = {int(each): text for each, text in _REFUSALS.items()}
-        raise ToolError(*known.get(reason, (f"the board refused, for a reason {reason}", REBUILD)))
+        raise ToolError(*known.get(reason, (f"the board refused, for reason {reason}", REBUILD)))
 
     def _give_up(self) -> NoReturn:
         if not self._heard:
@@ -182,6 +182,6 @@ class Link:
             )
         raise ToolError(
             f"the link on '{self._port.path}' is too bad: {TRIES} tries of a packet failed,"
-            f" {self.counters.broken} answers came broken",
-            "use another cable or USB port, or see whether the board is still running",
+            f" {self.counters.broken} answers were broken",
+            "use another cable or USB port, or check whether the board is still running",
         )

@@ -83,8 +83,8 @@ def _unopened(path: str, error: Exception) -> InputError:
         )
     if number == errno.ENOENT or not Path(path).exists():
         return InputError(
-            f"there is no serial port '{path}'", "plug the board in, and see: ls /dev/serial/by-id/"
+            f"there is no serial port '{path}'", "plug the board in, then look: ls /dev/serial/by-id/"
         )
     if number in (errno.EBUSY, errno.EAGAIN) or "lock" in str(error).lower():
         return InputError(f"'{path}' is in use by another program", "close that program")
-    return InputError(f"'{path}' is no usable serial port ({error})", "name the board's port with --port")
+    return InputError(f"'{path}' is not a usable serial port ({error})", "name the board's port with --port")

@@ -42,9 +42,9 @@ def board(
     """
     rate = find_board(name).baud if baud is None else baud
     if rate <= 0:
-        raise InputError(f"--baud {rate} is no rate", "give bits per second, for example 2000000")
+        raise InputError(f"--baud {rate} is not a rate", "give bits per second, for example 2000000")
     if not 0 < timeout < float("inf"):
-        raise InputError(f"--timeout {timeout:g} is no time", "give seconds, for example 0.5")
+        raise InputError(f"--timeout {timeout:g} is not a time", "give seconds, for example 0.5")
     wanted = choice.configuration() if choice.given else None
     from softdepth import files as results
     from softdepth.board.device import Device
@@ -79,7 +79,7 @@ def board(
 def _sequence(source: pairs.Source, config: Config, how: sequences.How, output: Path) -> None:
     """A sequence through a core that is there already."""
     if source.dataset is not None or source.left is None:
-        raise InputError(f"--dataset {source.dataset} beside a sequence", "leave one of them out")
+        raise InputError(f"--dataset {source.dataset} with a sequence", "leave one of them out")
     given = sequences.Given(
         source.left, source.right, source.joined, source.bits, source.truth, source.truth_scale
     )

@@ -77,7 +77,7 @@ def rig(paths: Sequence[Path], unit: float | None) -> "Rig":
     from softdepth.rig.readers import any as readers
 
     if unit is not None and not 0 < unit < float("inf"):
-        raise InputError(f"--unit {unit:g} is no length", "give metres, for example --unit 0.001")
+        raise InputError(f"--unit {unit:g} is not a length", "give metres, for example --unit 0.001")
     return readers.read(paths, 1.0 if unit is None else unit)
 
 

@@ -94,12 +94,12 @@ def _options(asked: dict[str, Any], config: Config) -> AxiOptions:
     for option in ("skew", "clocks"):
         if option in asked and not options.two:
             raise InputError(
-                f"--{option} {asked[option]} is of two streams, and there is one", "add --inputs two"
+                f"--{option} {asked[option]} is for two streams, but there is one", "add --inputs two"
             )
     if options.skew > config.max_height:
         raise InputError(
             f"--skew {options.skew} is more lines than a frame can have, {config.max_height}",
-            "use a few: each takes a line of block RAM in either view",
+            "use a few: each takes a line of block RAM in each view",
         )
     return options
 

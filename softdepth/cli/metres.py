@@ -47,7 +47,7 @@ class Kept:
 
         if self.disparity_error is not None and not 0 < self.disparity_error < float("inf"):
             raise InputError(
-                f"--disparity-error {self.disparity_error:g} is no error", "give pixels, for example 0.25"
+                f"--disparity-error {self.disparity_error:g} is not an error", "give pixels, for example 0.25"
             )
         return Choice(self.measured_only, self.min_confidence)
 
@@ -58,7 +58,7 @@ class Kept:
         """
         if metres and config.reference == "right":
             raise InputError(
-                "depth in metres is the left view's, and the configuration's reference is right",
+                "depth in metres is for the left view, but the configuration's reference is right",
                 "use --set reference=left, or leave the cameras out",
             )
         if self.min_confidence and not config.post.confidence:
@@ -73,7 +73,7 @@ class Kept:
         }
         if not metres and (options := [name for name, value in given.items() if value]):
             raise InputError(
-                f"{options[0]} is about depth in metres, and the cameras are not known",
+                f"{options[0]} is about depth in metres, but the cameras are not known",
                 "give --focal and --baseline, --calibration or --rectify as well",
             )
 
@@ -163,7 +163,7 @@ class Cameras:
         if self.frame_id is None:
             return geometry
         if not self.frame_id or any(each.isspace() for each in self.frame_id):
-            raise InputError(f"--frame-id '{self.frame_id}' is no name", "give one without blanks")
+            raise InputError(f"--frame-id '{self.frame_id}' is not a name", "give one without spaces")
         return replace(geometry, frame_id=self.frame_id)
 
 

@@ -159,7 +159,7 @@ def _with_truth(
     from softdepth.golden.data.truth import read_truth
 
     if is_standard_input(path) and any(is_standard_input(image) for image in images):
-        raise InputError("an image and --gt are both to come from standard input", "give one as a file")
+        raise InputError("an image and --gt cannot both come from standard input", "give one as a file")
     truth = read_truth(
         path,
         scale=scale,

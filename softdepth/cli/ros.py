@@ -49,7 +49,7 @@ def ros(
     from softdepth.ros.messages import Search
 
     if not 0 <= tolerance < float("inf"):
-        raise InputError(f"--tolerance {tolerance:g} is no time", "give seconds, for example 0.005")
+        raise InputError(f"--tolerance {tolerance:g} is not a time", "give seconds, for example 0.005")
     read = [_rig(text) for text in rigs or [f"{RIG},/stereo"]]
     config = choice.configuration()
     kept.check(config)

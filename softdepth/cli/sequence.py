@@ -92,13 +92,13 @@ def _rig_plan(
     """A rig with the calibration in its folder."""
     if given.truth is not None:
         raise InputError(
-            f"--gt {given.truth} with a folder of rigs", "lay each rig's truths into a folder called truth"
+            f"--gt {given.truth} with a folder of rigs", "put each rig's truths into a folder called truth"
         )
     here = replace(given, left=rig.left, right=rig.right, truth=rig.truth)
     if not rig.calibration:
         if rigs_raw:
             raise InputError(
-                f"rig '{rig.name}' is to be rectified and has no calibration", "lay its file beside left/"
+                f"rig '{rig.name}' should be rectified, but has no calibration", "put its file beside left/"
             )
         return sequences.Plan(rig.name, here, cameras, raw, output)
     paths = list(rig.calibration)
@@ -111,7 +111,7 @@ def _rig_plan(
         return sequences.Plan(rig.name, here, cameras, replace(raw, rectify=paths), output)
     if calibrations.rig(paths, cameras.unit).rectification is None:
         raise InputError(
-            f"'{paths[0]}' is the calibration of raw images", "say --raw, so that they are rectified by it"
+            f"'{paths[0]}' is the calibration of raw images", "add --raw, so that they are rectified with it"
         )
     return sequences.Plan(rig.name, here, replace(cameras, calibration=paths), raw, output)
 

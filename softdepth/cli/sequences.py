@@ -101,7 +101,7 @@ def prepare(
     if given.scale is not None and given.truth is None:
         raise InputError(f"--gt-scale {given.scale:g} without --gt", "name the ground truth it belongs to")
     if how.rate is not None and not 0.1 <= how.rate <= 240:
-        raise InputError(f"--fps {how.rate:g} is no rate", "give 0.1 to 240 frames a second")
+        raise InputError(f"--fps {how.rate:g} is not a rate", "give 0.1 to 240 frames a second")
     found = frames.find(given.left, given.right, given.joined)
     plan.raw.check(None, plan.output)
     _refuse_inputs(plan, found.files)
@@ -225,4 +225,4 @@ def _refuse_inputs(plan: Plan, files: tuple[Path, ...]) -> None:
             if each.is_dir() and any(each.iterdir()) and not (each / REPORT).exists():
                 if each.name.startswith("."):
                     continue
-                raise InputError(f"'{each}' is no frame of softdepth's", "choose another folder with -o")
+                raise InputError(f"'{each}' is not a frame of softdepth's", "choose another folder with -o")

@@ -44,7 +44,7 @@ def utilization(
 
     if families and (row or quick):
         raise InputError(
-            "--families is of other rows than --row and --quick", "ask for one of them at a time"
+            "--families measures other rows than --row and --quick", "ask for one of them at a time"
         )
     usual = utilization_page.QUICK if quick else utilization_page.RECOMMENDED
     rows = [_selection(text, seed) for text in row or ()] or [(each, seed) for each in usual]
@@ -54,7 +54,7 @@ def utilization(
     known = utilization_page.load(output)
     if families and not known:
         raise InputError(
-            f"'{output}' has no utilization.json to renew the page of", "leave out --families first"
+            f"'{output}' has no utilization.json to renew the page from", "leave out --families first"
         )
     if not (row or quick):
         of_families = other_families.load(output)
@@ -89,12 +89,12 @@ def _selection(text: str, seed: int) -> tuple["Selection", int]:
             raise ValueError(f"'{what}' has {len(parts)} parts")
         selection = Selection.model_validate(dict(zip(names, parts, strict=False)))
         if selection.device not in BLOCK_RAMS:
-            raise ValueError(f"'{selection.device}' is none of {', '.join(BLOCK_RAMS)}")
+            raise ValueError(f"'{selection.device}' is not one of {', '.join(BLOCK_RAMS)}")
         has_none = operator_of(selection.preset, "") == SUM if selection.preset in PRESETS else False
         if selection.operator not in (*OPERATORS, *((SUM,) if has_none else ())):
-            raise ValueError(f"'{selection.operator}' is no operator")
+            raise ValueError(f"'{selection.operator}' is not an operator")
         if at and not own.isdecimal():
-            raise ValueError(f"'{own}' is no seed")
+            raise ValueError(f"'{own}' is not a seed")
     except (ValueError, ValidationError) as error:
         raise InputError(
             f"--row '{text}' is not PRESET/OPERATOR/LANES[/DEVICE][@SEED]",

@@ -26,7 +26,7 @@ def check_export(config: Config, name: str = TOP) -> None:
     """Raise `InputError` or `ConfigError` for what cannot be exported, before the core is elaborated."""
     if not PLAIN.fullmatch(name) or name.lower() in RESERVED:
         raise InputError(
-            f"--name '{name}' is no name for a module",
+            f"--name '{name}' cannot name a module",
             "use letters, digits and single underscores, beginning with a letter, and no word of Verilog",
         )
     if config.reference == "right":

@@ -92,8 +92,8 @@ class Routed:
         if not any(abs(clock.wanted_mhz / mhz - 1) < CLOCK_TOLERANCE for clock in self.clocks):
             wanted = ", ".join(f"{clock.name} {clock.wanted_mhz:.2f}" for clock in self.clocks)
             raise ToolError(
-                f"nextpnr was to judge a clock of {mhz:.2f} MHz, and judged {wanted or 'none'}",
-                "see whether this nextpnr knows the part's PLL; those from PyPI do",
+                f"nextpnr should have judged a clock of {mhz:.2f} MHz, but judged {wanted or 'none'}",
+                "check whether this nextpnr knows the part's PLL; those from PyPI do",
             )
 
     def check_timing(self) -> None:

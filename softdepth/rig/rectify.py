@@ -89,11 +89,11 @@ class Rectifier:
 def _computed(rig: Rig, size: tuple[int, int]) -> Rectification:
     """OpenCV's rectification, with both principal points in one place and no pixel without a value."""
     if rig.baseline <= 0:
-        raise InputError("the two cameras stand in one place", "check the calibration's translation")
+        raise InputError("the two cameras are in the same place", "check the calibration's translation")
     if rig.left.lens != rig.right.lens:
         raise InputError(
             f"the left lens is {rig.left.lens}, the right one {rig.right.lens}",
-            "calibrate both with one model",
+            "calibrate both with the same model",
         )
     if rig.left.lens == "equidistant":
         r1, r2, p1, p2, _ = cv2.fisheye.stereoRectify(

@@ -64,9 +64,9 @@ def opened(path: Path) -> Iterator[AnyReader]:
     except (AnyReaderError, OSError, ValueError, KeyError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(
-            f"'{path}' is no ROS 2 bag that can be read ({reason})",
+            f"'{path}' is not a ROS 2 bag that can be read ({reason})",
             "give its folder with metadata.yaml, or its one .mcap or .db3; where a recorder was killed,"
-            " mend it with: mcap recover FILE, or: ros2 bag reindex FOLDER",
+            " repair it with: mcap recover FILE, or: ros2 bag reindex FOLDER",
         ) from error
     try:
         yield reader

@@ -111,11 +111,11 @@ def convert(
     Raises `InputError` for what is wrong with the bag, for a target that exists, and where no rig has a pair.
     """
     if target.exists():
-        raise InputError(f"'{target}' exists already", "name a new folder: bags are not written over")
+        raise InputError(f"'{target}' exists already", "name a new folder: bags are not overwritten")
     if storage not in STORAGE:
         raise InputError(f"unknown storage '{storage}'", f"use one of {', '.join(STORAGE)}")
     if len({rig.namespace.rstrip("/") for rig in rigs}) < len(rigs):
-        raise InputError("two rigs have one namespace", "give each rig a namespace of its own")
+        raise InputError("two rigs have the same namespace", "give each rig a namespace of its own")
     done = Converted({rig.namespace: 0 for rig in rigs})
     try:
         target.parent.mkdir(parents=True, exist_ok=True)

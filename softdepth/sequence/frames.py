@@ -56,7 +56,7 @@ class ImageFrames:
         for first, *_ in self.paths:
             if other := stems.get(first.stem):
                 raise InputError(
-                    f"'{other}' and '{first}' would give results of one name", "rename one of them"
+                    f"'{other}' and '{first}' would give results of the same name", "rename one of them"
                 )
             stems[first.stem] = first
 
@@ -119,8 +119,8 @@ class VideoFrames:
             axis = 1 if self.joined == "side-by-side" else 0
             if views[0].shape[axis] % 2:
                 raise InputError(
-                    f"'{self.paths[0]}' is {size_text(views[0])}, which does not halve",
-                    "give both views at one size",
+                    f"'{self.paths[0]}' is {size_text(views[0])}, which cannot be halved",
+                    "give both views at the same size",
                 )
             views = [np.ascontiguousarray(half) for half in np.split(views[0], 2, axis=axis)]
         left, right = views
@@ -165,7 +165,7 @@ def find(left: Path, right: Path | None, joined: Joined | None) -> Frames:
         if joined is None:
             raise InputError(
                 f"'{left}' is one view",
-                "give RIGHT as well, or --side-by-side or --top-bottom where it holds both",
+                "give RIGHT as well, or --side-by-side or --top-bottom if it holds both",
             )
         if kind == "video":
             return VideoFrames((Video.opened(left),), joined)
@@ -173,7 +173,7 @@ def find(left: Path, right: Path | None, joined: Joined | None) -> Frames:
     if joined is not None:
         raise InputError(f"--{joined} takes one sequence with both views, 2 given", "leave RIGHT out")
     if (other := names.kind_of(right)) != kind:
-        raise InputError(f"'{left}' is {_a(kind)}, '{right}' is {_a(other)}", "give two of a kind")
+        raise InputError(f"'{left}' is {_a(kind)}, '{right}' is {_a(other)}", "give two of the same kind")
     if kind == "video":
         return VideoFrames((Video.opened(left), Video.opened(right)))
     return ImageFrames(tuple(names.partners(names.files_of(left), names.files_of(right), (left, right))))
@@ -195,17 +195,17 @@ def checked(frames: Frames, bits: int | None, progress: Callable[[int], None] = 
             raise InputError(
                 f"frame '{pair.name}' is {size_text(pair.left)},"
                 f" but '{first.name}' is {size_text(first.left)}",
-                "give frames of one size",
+                "give frames of the same size",
             )
         own += len(pair.notes) > len(first.notes)
         depths.add(pair.bits)
         found.append(pair.name)
         progress(number)
     if first is None:
-        raise InputError("the sequence has no frame", "give one at least")
+        raise InputError("the sequence has no frame", "give at least one")
     notes = first.notes
     if own:
-        notes += (f"{own} more frames have notes of their own, which are in their reports",)
+        notes += (f"{own} more frames have notes of their own; see their reports",)
     if len(depths) > 1:
         bits = max(depths)
         notes += (f"all frames are read with {bits} bits, which the brightest needs",)

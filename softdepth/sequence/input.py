@@ -39,7 +39,7 @@ class Input:
             if number >= len(self.checked.names):
                 break
             if (read.width, read.height) != (self.checked.first.width, self.checked.first.height):
-                raise InputError(f"frame '{read.name}' has changed", "leave the files alone meanwhile")
+                raise InputError(f"frame '{read.name}' has changed", "do not change the files meanwhile")
             pair = read.as_format(self.config.pixel)
             if self.rectifier is not None:
                 left, right = self.rectifier.apply(pair.left, pair.right)
@@ -51,7 +51,7 @@ class Input:
         if number + 1 != len(self.checked.names):
             raise InputError(
                 f"the sequence had {len(self.checked.names)} frames, now it has {number + 1}",
-                "leave the files alone meanwhile",
+                "do not change the files meanwhile",
             )
 
     def check_truths(self, progress: Callable[[int], None] = lambda done: None) -> None:

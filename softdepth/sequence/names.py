@@ -77,7 +77,7 @@ def files_of(path: Path, suffixes: frozenset[str] = IMAGES) -> list[Path]:
     if is_pattern(path):
         found = [each for name in glob.glob(str(path), recursive=True) if (each := Path(name)).is_file()]
         if not found:
-            raise InputError(f"no file matches '{path}'", "see what there is with ls")
+            raise InputError(f"no file matches '{path}'", "look what is there with ls")
         return sorted(found, key=natural)
     try:
         inside = list(path.iterdir())
@@ -114,12 +114,12 @@ def partners(left: list[Path], right: list[Path], names: tuple[Path, Path]) -> l
             raise InputError(
                 f"frame '{first.name}' would be paired with '{right[left.index(first)].name}',"
                 f" not '{other.name}'",
-                "see that both views have the same frames",
+                "check that both views have the same frames",
             )
     if len(left) != len(right):
         raise InputError(
             f"'{names[0]}' has {len(left)} frames, '{names[1]}' has {len(right)}",
-            "see that both views have the same frames",
+            "check that both views have the same frames",
         )
     return list(zip(left, right, strict=True))
 

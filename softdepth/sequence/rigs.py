@@ -60,7 +60,7 @@ def _rig(folder: Path) -> RigFolder | None:
     if len(files) > 2:
         names = ", ".join(sorted(each.name for each in files))
         raise InputError(
-            f"rig '{folder}' has {len(files)} calibrations: {names}", "leave one, or one a camera"
+            f"rig '{folder}' has {len(files)} calibrations: {names}", "give one, or one per camera"
         )
     files.sort(key=lambda each: (not any(word in each.stem.lower() for word in FIRST), each.name))
     truth = folder / TRUTH

@@ -93,6 +93,7 @@ def _capture(path: Path) -> cv2.VideoCapture:
     if not capture.isOpened():
         capture.release()
         raise InputError(
-            f"'{path}' is no video that OpenCV can open", "convert it, for example: ffmpeg -i FILE video.mp4"
+            f"'{path}' is not a video that OpenCV can open",
+            "convert it, for example: ffmpeg -i FILE video.mp4",
         )
     return capture

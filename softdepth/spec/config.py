@@ -96,7 +96,7 @@ class Config(Settings):
     @classmethod
     def _known(cls, name: str) -> str:
         if name not in REGISTRY:
-            raise ValueError(f"it is no operator: use one of {REGISTRY.choices()}")
+            raise ValueError(f"it is not an operator: use one of {REGISTRY.choices()}")
         return name
 
     @model_validator(mode="after")

@@ -86,7 +86,7 @@ def manifests(folder: Path, kept: Container[str] = ()) -> dict[Board, Manifest]:
         except (OSError, ValueError) as error:
             raise InputError(f"'{path}' cannot be read: {error}", remedy) from error
         if manifest.config_hash != board.config.hash:
-            raise InputError(f"'{path}' is not of the core that is the {board.name}'s by default", remedy)
+            raise InputError(f"'{path}' is not for the {board.name}'s default core", remedy)
     return found
 
 

@@ -64,9 +64,7 @@ def read_scenes(folder: Path) -> list[Scene]:
         truth = read_truth(left.with_name("truth.pfm"))
         found.append(Scene(left.parent.name, pair.left, pair.right, truth.disparity[truth.known]))
     if not found:
-        raise InputError(
-            f"no scenes in '{folder}'", f"let {SCENES_VARIABLE} name a folder with SCENE/left.png"
-        )
+        raise InputError(f"no scenes in '{folder}'", f"set {SCENES_VARIABLE} to a folder with SCENE/left.png")
     return found
 
 
@@ -154,7 +152,7 @@ def main(project: Path) -> None:
     """Renew the tables in `project`."""
     folder = os.environ.get(SCENES_VARIABLE)
     if not folder:
-        raise InputError(f"{SCENES_VARIABLE} is unset", "let it name a folder with SCENE/left.png")
+        raise InputError(f"{SCENES_VARIABLE} is unset", "set it to a folder with SCENE/left.png")
     path = project / DOCUMENT
     try:
         text = path.read_text()

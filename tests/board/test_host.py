@@ -93,7 +93,7 @@ def test_a_board_that_stops_is_given_up(config):
 def test_a_line_that_breaks_everything_is_given_up(config):
     message = failure(config, Misdeeds(garble_replies=frozenset(range(3, 1000))))
     assert "is too bad" in message
-    assert "answers came broken" in message
+    assert "answers were broken" in message
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_ports_that_cannot_be_opened_are_told(tmp_path):
         Port(str(tmp_path / "ttyUSB9"), BAUD)
     plain = tmp_path / "file"
     plain.touch()
-    with pytest.raises(InputError, match="is no usable serial port"):
+    with pytest.raises(InputError, match="is not a usable serial port"):
         Port(str(plain), BAUD)
     if os.geteuid():  # root may open anything
         plain.chmod(stat.S_IRUSR)
@@ -197,7 +197,7 @@ def test_a_sequence_through_a_board(config, files, softdepth, tmp_path):
         again = softdepth(*command, "-o", out)
         assert "3 of them from an earlier run" in again.out
         refused = softdepth(*command, "--dataset", "motorcycle", "-o", out)
-        assert "beside a sequence" in refused.error
+        assert "with a sequence" in refused.error
     assert "frames a second, there and back" in outcome.out
     assert "gateware against fixed model: 0 mismatches" in outcome.out
     summary = json.loads((out / "sequence.json").read_text())
@@ -276,9 +276,9 @@ def test_unplugging_leaves_nothing_half_written(config, files, softdepth, tmp_pa
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        (("--baud", 0), "--baud 0 is no rate"),
-        (("--baud", 1 << 31, "--port", "/dev/ptmx"), "'/dev/ptmx' is no usable serial port"),
-        (("--timeout", -1), "--timeout -1 is no time"),
+        (("--baud", 0), "--baud 0 is not a rate"),
+        (("--baud", 1 << 31, "--port", "/dev/ptmx"), "'/dev/ptmx' is not a usable serial port"),
+        (("--timeout", -1), "--timeout -1 is not a time"),
         (("--board", "toaster"), "unknown board 'toaster'"),
     ],
 )

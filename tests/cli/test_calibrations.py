@@ -80,10 +80,10 @@ def test_two_files_make_a_page(softdepth, tmp_path):
         (("--calibration", "rig.yml"), "'rig.yml' does not tell how its images were rectified"),
         (("--rectify", "calib.txt"), "'calib.txt' is the calibration of rectified images"),
         (("--calibration", "none.txt"), "'none.txt' cannot be read"),
-        (("--calibration", "calib.txt", "--unit", 0), "--unit 0 is no length"),
+        (("--calibration", "calib.txt", "--unit", 0), "--unit 0 is not a length"),
         (("--unit", 0.001, "--focal", 5, "--baseline", 1), "--unit 0.001 without a calibration"),
         (("--doffs", 3), "depth in metres needs --focal"),
-        (("--calibration", "calib.txt", "--frame-id", "a b"), "--frame-id 'a b' is no name"),
+        (("--calibration", "calib.txt", "--frame-id", "a b"), "--frame-id 'a b' is not a name"),
     ],
 )
 @pytest.mark.parametrize("command", ["run", "view"])

@@ -62,7 +62,7 @@ def test_a_later_run_without_cameras_leaves_no_metres(softdepth, files: Files, t
         ((*CAMERAS, "--set", "reference=right"), "depth in metres is the left view's"),
         (("--measured-only",), "--measured-only is about depth in metres"),
         (("--disparity-error", 0.5), "--disparity-error 0.5 is about depth in metres"),
-        ((*CAMERAS, "--disparity-error", -1), "--disparity-error -1 is no error"),
+        ((*CAMERAS, "--disparity-error", -1), "--disparity-error -1 is not an error"),
     ],
 )
 def test_what_is_missing_is_named(softdepth, files: Files, tmp_path, arguments, message):
@@ -103,8 +103,8 @@ def test_a_rig_that_is_none(softdepth, tmp_path, frames, rig):  # noqa: F811
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (("--tolerance", -1), "--tolerance -1 is no time"),
-        (("--tolerance", "nan"), "--tolerance nan is no time"),
+        (("--tolerance", -1), "--tolerance -1 is not a time"),
+        (("--tolerance", "nan"), "--tolerance nan is not a time"),
         (("--set", "reference=right"), "depth in metres is the left view's"),
         (("--min-confidence", 9), "preset sad has no confidence"),
         (("--rig", "/left/image_rect,/nothing"), "the bag has no topic '/nothing'"),

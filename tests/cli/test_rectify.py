@@ -43,7 +43,7 @@ def test_a_raw_pair_becomes_a_rectified_one(softdepth, raw, tmp_path):
     ("arguments", "message"),
     [
         (["--calibration", "none.yml"], "cannot be read"),
-        (["--calibration", "rig.yml", "--unit", "0"], "--unit 0 is no length"),
+        (["--calibration", "rig.yml", "--unit", "0"], "--unit 0 is not a length"),
         ([], "calibration"),
     ],
 )

@@ -54,12 +54,12 @@ def twice(scene: Path) -> None:
         (cut, (), "f9.png' "),
         (few_truths, ("--gt", "truth"), "2 truths in"),
         (broken_truth, ("--gt", "truth"), "f10.pfm"),
-        (twice, (), "would give results of one name"),
-        (None, ("--fps", 0), "--fps 0 is no rate"),
+        (twice, (), "would give results of the same name"),
+        (None, ("--fps", 0), "--fps 0 is not a rate"),
         (None, ("--gt-scale", 2), "--gt-scale 2 without --gt"),
         (None, ("--min-confidence", 3), "has no confidence"),
         (None, ("--disparity-error", 1), "the cameras are not known"),
-        (None, ("--disparity-error", "nan", *METRES), "--disparity-error nan is no error"),
+        (None, ("--disparity-error", "nan", *METRES), "--disparity-error nan is not an error"),
         (None, ("--raw",), "--raw without a folder of rigs"),
         (None, ("--side-by-side",), "takes one sequence with both views"),
         (None, ("--calibration", "nowhere.yml"), "nowhere.yml"),
@@ -86,7 +86,7 @@ def test_wrong_sources(softdepth, scene, tmp_path):
         )
     out = tmp_path / "out"
     for arguments, message in {
-        (tmp_path / "no.mp4", tmp_path / "no.mp4"): "is no video that OpenCV can open",
+        (tmp_path / "no.mp4", tmp_path / "no.mp4"): "is not a video that OpenCV can open",
         (tmp_path / "*.bmp", tmp_path / "*.png"): "no file matches",
         (tmp_path / "empty", tmp_path / "empty"): "holds no images",
         (tmp_path / "empty",): "holds no rig",
@@ -96,7 +96,7 @@ def test_wrong_sources(softdepth, scene, tmp_path):
         (tmp_path / "short.webm", scene / "left"): "is a video,",
         (scene / "left" / "f8.png", scene / "right"): "is one image",
         (tmp_path / "long.webm", "--side-by-side", "--top-bottom"): "contradict each other",
-        (scene / "left", scene / "right", "--frame-id", "a b", *METRES): "is no name",
+        (scene / "left", scene / "right", "--frame-id", "a b", *METRES): "is not a name",
     }.items():
         outcome = softdepth("sequence", *arguments, *SMALL, "-o", out)
         assert message in outcome.error, arguments
@@ -110,5 +110,5 @@ def test_inputs_are_never_replaced(softdepth, scene):
     outcome = softdepth("sequence", inside / "left", inside / "right", *SMALL, "-o", scene.parent)
     assert "which is read" in outcome.error
     outcome = softdepth("sequence", scene / "left", scene / "right", *SMALL, "-o", scene.parent)
-    assert "is no frame of softdepth's" in outcome.error
+    assert "is not a frame of softdepth's" in outcome.error
     assert softdepth("run", scene / "left", scene / "right", *SMALL[:-2]).error.endswith("sequence for more")

@@ -171,8 +171,8 @@ def test_kitti(tmp_path, first, second):
     [
         ("P2: 1 2 3\nP3: 1 2 3\n", "'P2' in .* is not 3 x 4 numbers"),
         ("P2: 1 2 x\nP3: 1 2 3\n", "give numbers there"),
-        ("hello\n", "is no calibration that is known"),
-        ("cam0: [1, 2\n", "is no YAML"),
+        ("hello\n", "is not a calibration of a known form"),
+        ("cam0: [1, 2\n", "is not YAML"),
         ("cam0=[0 0 1; 0 1 1; 0 0 1]\ncam1=[0 0 1; 0 1 1; 0 0 1]\nbaseline=1\n", "focal length"),
         ("%YAML:1.0\n---\nM1: !!opencv-matrix\n  rows: 3\n", "no OpenCV calibration|no key"),
         ("%YAML:1.0\n---\nother: 1\n", "has no key 'M1', 'P1' or 'Q'"),

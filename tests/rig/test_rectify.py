@@ -115,5 +115,5 @@ def test_cameras_above_each_other_are_refused():
 
 def test_cameras_in_one_place_are_refused():
     rig = rigs.rig()
-    with pytest.raises(InputError, match="in one place"):
+    with pytest.raises(InputError, match="in the same place"):
         Rectifier.of(Rig(rig.left, rig.right, np.eye(3), np.zeros(3)), rigs.SIZE)

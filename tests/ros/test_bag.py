@@ -118,7 +118,7 @@ def test_what_is_no_bag(tmp_path):
     with pytest.raises(InputError, match="does not exist"):
         read(tmp_path / "none")
     (tmp_path / "file.txt").write_text("no bag")
-    with pytest.raises(InputError, match="is no ROS 2 bag"):
+    with pytest.raises(InputError, match="is not a ROS 2 bag"):
         read(tmp_path / "file.txt")
 
 

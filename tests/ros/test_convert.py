@@ -196,7 +196,7 @@ def test_nothing_half_written(tmp_path, bag):
     ("change", "message"),
     [
         ({"storage": "bag"}, "unknown storage 'bag'; use one of db3, mcap"),
-        ({"rigs": [RIG, RIG]}, "two rigs have one namespace"),
+        ({"rigs": [RIG, RIG]}, "two rigs have the same namespace"),
     ],
 )
 def test_wrong_arguments(tmp_path, bag, change, message):

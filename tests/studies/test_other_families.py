@@ -78,7 +78,7 @@ def test_the_command_renews_the_page(runs: list[str], project: Path, tmp_path: P
 
 
 def test_families_with_rows(refused, runs: list[str], tmp_path: Path) -> None:
-    assert "--families is of other rows" in refused("utilization", "--families", "--quick", "-o", tmp_path)
+    assert "--families measures other rows" in refused("utilization", "--families", "--quick", "-o", tmp_path)
     assert runs == []
 
 

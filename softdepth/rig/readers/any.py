@@ -33,6 +33,6 @@ def read(paths: Sequence[Path], unit: float = 1.0) -> Rig:
     if any(f"{first}:" in text for first, _ in kitti.PAIRS):
         return kitti.read(paths[0])
     raise InputError(
-        f"'{paths[0]}' is no calibration that is known",
+        f"'{paths[0]}' is not a calibration of a known form",
         "give one of OpenCV, ROS (camera_info), Middlebury (calib.txt), KITTI or Kalibr (camchain)",
     )

@@ -15,7 +15,7 @@ def text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is no text"
+        reason = getattr(error, "strerror", None) or "it is not text"
         raise InputError(f"'{path}' cannot be read: {reason}", "name a calibration file") from error
 
 
@@ -26,7 +26,7 @@ def parse_yaml(path: Path) -> dict[str, Any]:
     try:
         found = yaml.safe_load(text(path))
     except yaml.YAMLError as error:
-        raise InputError(f"'{path}' is no YAML: {error}", "name a calibration file") from error
+        raise InputError(f"'{path}' is not YAML: {error}", "name a calibration file") from error
     if not isinstance(found, dict):
         raise InputError(f"'{path}' holds no keys", "name a calibration file")
     return found

@@ -86,7 +86,7 @@ def _matrices(path: Path) -> dict[str, Matrix]:
             return _parsed(text)
     except (cv2.error, SystemError) as error:
         remedy = "name an undamaged YAML or XML file of OpenCV's"
-        raise InputError(f"'{path}' is no OpenCV calibration", remedy) from error
+        raise InputError(f"'{path}' is not an OpenCV calibration", remedy) from error
 
 
 def _parsed(text: str) -> dict[str, Matrix]:

@@ -40,7 +40,7 @@ def agreement(first: "DisparityMap", second: "DisparityMap", truth: "Truth | Non
     Raises `InputError` for maps of different size, or without a common pixel.
     """
     if first.shape != second.shape:
-        raise InputError(f"the maps are {first.shape} and {second.shape}", "compare maps of one frame")
+        raise InputError(f"the maps are {first.shape} and {second.shape}", "compare maps of the same frame")
     common = first.valid & second.valid
     if not common.any():
         raise InputError("no pixel has a result in both maps", "give images larger than the window support")

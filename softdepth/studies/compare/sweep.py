@@ -80,7 +80,7 @@ def check_sweepable(config: Config) -> None:
     """Raise `ConfigError` for a configuration without memberships."""
     if config.cost != "fuzzy":
         raise ConfigError(
-            f"cost is '{config.cost}', which has no memberships whose width could be compared",
+            f"cost is '{config.cost}', which has no memberships to compare the widths of",
             "use a configuration with cost = 'fuzzy', for example --preset paper",
         )
 

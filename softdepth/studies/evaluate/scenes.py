@@ -61,7 +61,7 @@ def find(folders: Sequence[Path], leave_out: Sequence[str] = ()) -> list[Scene]:
     scenes: dict[str, Scene] = {}
     for folder in folders:
         if not folder.is_dir():
-            raise InputError(f"'{folder}' is no folder", "give one whose subfolders are scenes")
+            raise InputError(f"'{folder}' is not a folder", "give one whose subfolders are scenes")
         found = [
             s for f in (folder, *sorted(folder.iterdir())) if f.is_dir() and (s := _scene(f)) is not None
         ]

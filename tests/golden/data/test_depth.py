@@ -203,7 +203,7 @@ def test_more_bits_than_the_pair_has() -> None:
 @pytest.mark.parametrize("name", ["yuv8", "gray", "rgb99", "rgb0"])
 def test_no_pixel_format(name: str) -> None:
     image = np.zeros((2, 2), np.uint8)
-    with pytest.raises(InputError, match=f"'{name}' is no pixel format"):
+    with pytest.raises(InputError, match=f"'{name}' is not a pixel format"):
         StereoPair(image, image, "x").as_format(name)
 
 
@@ -242,7 +242,7 @@ def test_a_pair_in_one_file(tmp_path: Path, rng: np.random.Generator, depth: typ
 
 def test_a_pair_in_one_file_that_does_not_halve(tmp_path: Path) -> None:
     path = save(tmp_path / "both.png", np.zeros((4, 7), np.uint8))
-    with pytest.raises(InputError, match="is 7x4: 7 columns do not halve"):
+    with pytest.raises(InputError, match="is 7x4: 7 columns cannot be halved"):
         read_joined(path, "side-by-side")
     assert read_joined(path, "top-bottom").height == 2
 

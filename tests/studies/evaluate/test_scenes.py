@@ -34,7 +34,7 @@ def test_what_is_wrong_with_folders_is_told(tmp_path):
     write_scene(tmp_path / "b" / "same")
     (tmp_path / "none").mkdir()
     for folders, leave_out, error in (
-        ([tmp_path / "missing"], (), "is no folder"),
+        ([tmp_path / "missing"], (), "is not a folder"),
         ([tmp_path / "none"], (), "holds no scene"),
         ([tmp_path / "a", tmp_path / "b"], (), "two scenes are called 'same'"),
         ([tmp_path / "a"], ("other",), "there is no scene 'other'"),

@@ -1,4 +1,4 @@
-"""Turns whatever markers arrive into frames that are whole."""
+"""Makes whole frames of whatever markers arrive."""
 
 from amaranth.hdl import Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
@@ -17,13 +17,13 @@ def item_layout(config: Config) -> data.StructLayout:
     """What leaves the guard: a pixel pair at column ``x``, or a bare ``end``.
 
     Every frame begins with ``sof``, all its lines are equally long, and it is ended once: by
-    ``eof`` on its last pixel, or by an ``end`` item without a pixel. ``damaged`` tells that the
+    ``eof`` on its last pixel, or by an ``end`` item without a pixel. ``damaged`` says that the
     frame was mended, or cut short, up to here.
 
-    The last four are for the sequencer and speak of ``x``. ``first``: it is the line's first column.
-    ``completes``: with it, the line's first pixel has all that it sees to its right. ``inner``: with it, a
-    pixel is complete whose support lies inside the image; ``first_inner``: it is the first of these. The
-    last three are never set with ``sof``, and none is with ``end``.
+    The last four tell the sequencer about column ``x``. ``first``: it is the line's first. ``completes``:
+    with it, the line's first pixel has everything that it looks at to its right. ``inner``: with it, a pixel
+    is complete whose support lies inside the image; ``first_inner``: it is the first of these. The
+    last three are never set together with ``sof``, and none of the four with ``end``.
     """
     return data.StructLayout(
         {
@@ -44,32 +44,32 @@ def item_layout(config: Config) -> data.StructLayout:
 
 
 class FrameGuard(wiring.Component):
-    """Turns whatever markers arrive into whole frames; sound frames pass, and none of their pixels waits.
+    """Makes whole frames of whatever markers arrive; sound frames pass, and none of their pixels waits.
 
     A frame's first line gives its width. Short lines are filled up, long ones are cut, pixels outside any
     frame are dropped, and a start of frame before the end closes the running frame first. Each fault is
     counted in ``status``, and marks the frame as damaged from there on. The table of faults is in
-    docs/gateware.md; how the end of a frame is known without end marks, in `HeightLearner` and `Silence`.
+    docs/gateware.md; `HeightLearner` and `Silence` say how a frame's end is known without end marks.
 
     States
     ------
     OUTSIDE : no frame is open. IGNORE : the same, in a frame that is skipped.
-    DROP : no frame is open, and pixels that belong to none have come.
-    BETWEEN : a frame is open, and a line of it is complete. LINE : the line has begun.
-    LAST : a frame is open, and all the lines of it that there can be are complete.
+    DROP : no frame is open, and pixels have come that belong to none.
+    BETWEEN : a frame is open, and a line of it is complete. LINE : a line has begun.
+    LAST : a frame is open, and it has all the lines that it can have.
     PAD : a short line is filled with its last pixel.
     SKIP : the rest of a line that was cut is dropped.
-    END : a frame ended in what was cut, and has yet to be ended for the sequencer.
-    OVER : the same of a frame that ended where silence told.
+    END : a frame ended in the part that was cut, and the sequencer has not been told yet.
+    OVER : the same for a frame that a silence has ended.
 
     Members
     -------
     i : pixel pairs with raw markers. ``ready`` depends on ``valid``.
     o : well-formed items, in the same clock.
-    hold : no frame begins: its first pixel waits, and ends the frame before as it does otherwise.
-    skip : a frame that begins is dropped whole, and nobody counts it.
-    clear : the counters begin at 0.
-    forget : as of `HeightLearner`.
+    hold : no frame begins; its first pixel waits, but still ends the frame before it.
+    skip : a frame that begins is dropped as a whole and not counted.
+    clear : sets the counters to 0.
+    forget : as in `HeightLearner`.
     faults : what was met in the clock before.
     status : counters of what was mended.
     """
@@ -106,13 +106,13 @@ class FrameGuard(wiring.Component):
         )
         at = states.at
         closed = states.group("OUTSIDE", "IGNORE", "DROP")  # no frame is open
-        goes_on = states.group("BETWEEN", "LINE")  # the pixel that follows belongs to the frame
+        goes_on = states.group("BETWEEN", "LINE")  # the next pixel belongs to the frame
         unwanted = states.group("OUTSIDE", "IGNORE", "DROP", "SKIP")  # it is dropped
-        ended_by_start = states.group("BETWEEN", "LAST", "SKIP")  # unless it starts one, which ends the frame
+        ended_by_start = states.group("BETWEEN", "LAST", "SKIP")  # a pixel that starts a frame ends this one
         ending = states.group("END", "OVER")
-        own = states.group("PAD", "END", "OVER")  # what leaves is not what is offered
+        own = states.group("PAD", "END", "OVER")  # what leaves is not the pixel on offer
 
-        starts, rest = Signal(), Signal()  # a pixel is offered, and it starts a frame, or does not
+        starts, rest = Signal(), Signal()  # a pixel is offered: one that starts a frame, or any other
         eol = Signal()
         begins = Signal()  # a frame may begin
         m.d.comb += [
@@ -122,7 +122,7 @@ class FrameGuard(wiring.Component):
             begins.eq(starts & closed & ~self.skip & ~self.hold),
         ]
 
-        # What is done in this clock: at most one of them.
+        # What is done in this clock: at most one of these.
         passes = Signal()  # the pixel that is offered leaves
         drops = Signal()  # it is dropped
         fills = at["PAD"]  # the line's last pixel leaves once more
@@ -137,9 +137,9 @@ class FrameGuard(wiring.Component):
             counters.again.eq(self.o.valid & ~may_leave),
         ]
 
-        # What becomes of a pixel that passes: it ends its line, or is the last before it is filled or cut.
+        # What a pixel that passes does: it ends its line, or is the last before the line is filled or cut.
         short, cut, line_ends = Signal(), Signal(), Signal()
-        end_waits = Signal(reset_less=True)  # the line that is filled bore its frame's end
+        end_waits = Signal(reset_less=True)  # the line that is being filled had its frame's end
         m.d.comb += [
             short.eq(passes & eol & ~columns.may_end),
             cut.eq(passes & ~eol & columns.must_end),
@@ -150,7 +150,7 @@ class FrameGuard(wiring.Component):
         ]
 
         def follow(line: Value, frame: Value) -> None:
-            """Where a line goes that ends here, and bears its frame's end."""
+            """The state after a `line` that ends here, with its `frame` or without."""
             with m.If(line & frame):
                 states.go("OUTSIDE")
             with m.If(line & ~frame & learner.is_last):
@@ -188,9 +188,9 @@ class FrameGuard(wiring.Component):
         with m.If((at["BETWEEN"] | at["LAST"]) & silence.over & ~self.i.valid):
             states.go("OVER")
 
-        # A start after a whole line is how frames end where there is no other way to know it.
+        # If nothing else tells that a frame has ended, the next start after a whole line does.
         early = Signal()
-        found = Signal()  # a fault in what leaves, other than of its line
+        found = Signal()  # a fault in what leaves, besides the length of its line
         m.d.comb += [
             early.eq(starts & (at["BETWEEN"] | at["LAST"]) & learner.is_early),
             found.eq(fills | at["END"] | (rest & at["LAST"]) | early),
@@ -199,15 +199,15 @@ class FrameGuard(wiring.Component):
             counters.long_lines.eq(cut),
         ]
 
-        # Damage is known a clock after it left, and forgotten a clock after its frame's end did.
+        # Damage is known one clock after it left, and forgotten one clock after its frame's end left.
         hurt, damaged = Signal(), Signal()
-        so_far = Signal()  # this frame is damaged, by what came before
+        so_far = Signal()  # this frame was damaged before
         m.d.comb += so_far.eq((damaged | hurt) & ~closed)
         m.d.sync += [hurt.eq(self.o.valid & may_leave & (found | short | cut)), damaged.eq(so_far)]
 
-        # A line's last pixel, to fill it with. Whatever is offered is kept, as one of the line follows before
-        # it is filled: these registers lie far from the others, so that little may decide. The source may
-        # offer nothing meanwhile, or what it likes: the item does not show it.
+        # A line's last pixel, to fill the line with. These registers are far from the others, so as little as
+        # possible decides when they load: they take any pixel on offer, and a pixel of the line always comes
+        # before the line is filled. What the source offers while it is filled does not matter.
         kept = {
             side: Signal(config.pixel.size, name=f"kept_{side}", reset_less=True)
             for side in ("left", "right")
@@ -217,7 +217,7 @@ class FrameGuard(wiring.Component):
         with m.If(~fills):
             m.d.sync += end_waits.eq(pair.eof | (at["LINE"] & pair.sof))
 
-        # Where nothing reaches to the right, a line's first pixel completes itself, but not the frame's.
+        # If nothing reaches to the right, a line's first pixel completes itself, except the frame's first.
         first = passes & ~at["LINE"]
         m.d.comb += [
             item.left.eq(Mux(own, kept["left"], pair.left)),

@@ -1,4 +1,4 @@
-"""Learns how a source's frames end, and tells which line is a frame's last."""
+"""Learns how a source ends its frames, and says which line is a frame's last."""
 
 from amaranth.hdl import Module, Mux, Signal
 from amaranth.lib import wiring
@@ -7,35 +7,35 @@ from amaranth.lib.wiring import In, Out
 from softdepth.spec.config import Config
 
 REPORT_CLOCKS = 3
-"""Clocks from a line's first pixel to what is said of the line: no line has fewer than `NARROWEST` pixels."""
+"""Clocks from a line's first pixel to the outputs about it; every line has at least `NARROWEST` pixels."""
 
 
 class HeightLearner(wiring.Component):
     """Counts a frame's lines and knows where the frame ends, whether or not the source marks it.
 
-    It begins ``UNKNOWN``, and nothing but frames that are whole can change that. Two of them in a row that
-    are equally high and bear no end mark make the source one that is supposed to have a ``HEIGHT``: a
-    silence after its last line ends a frame. Where the next line follows, the frame is taller, and nothing
-    is known any more. A third frame confirms the height: from then on lines that follow are a fault. An end
-    mark, wherever it stands, makes the source one that ``MARKS`` its ends, until reset, or `forget`.
+    It begins in ``UNKNOWN``, and only whole frames can change that. After two of them in a row with the same
+    height and without an end mark, it assumes that the source has this ``HEIGHT``, and a silence after the
+    last line ends a frame. If another line follows instead, the frame is taller, and nothing is known any
+    more. A third frame confirms the height: from then on, further lines are a fault. An end mark, wherever
+    it stands, shows that the source ``MARKS`` its ends, until reset or `forget`.
 
-    A height changes when three whole frames in a row agree on a lower one. A confirmed one is forgotten when
-    lines follow its last, which a taller frame has and which are lost. Whole multiples of the height are
-    forgiven once: starts of frame that went missing look the same.
+    A height changes when three whole frames in a row agree on a lower one. A confirmed height is forgotten
+    when further lines follow, which a taller frame has and which are lost. If their number is a multiple of
+    the height, it is kept once, because missing starts of frame look the same.
 
     Members
     -------
     frame : a frame's first pixel is taken in this clock.
-    line : a line's first pixel is taken, of a frame's first line too.
-    whole : a frame without fault has ended by silence, or by the next frame's start, which is taken later.
-    dropped : a line has ended that belongs to no frame.
+    line : a line's first pixel is taken, also that of a frame's first line.
+    whole : a sound frame was ended by a silence, or by the next frame's start, which is taken later.
+    dropped : a line that belongs to no frame has ended.
     mark : an end mark is taken, wherever it stands.
-    forget : no frame is open, and what was learnt is void: as after reset.
-    is_last : no line can follow the running one, by a confirmed height or ``max_height``.
-    may_end : silence after the running line ends the frame.
-    is_early : the next frame's start after the running line would come too early.
+    forget : no frame is open, and everything learnt is dropped, as after reset.
+    is_last : no line can follow the running one, because of a confirmed height or ``max_height``.
+    may_end : a silence after the running line ends the frame.
+    is_early : if the next frame started after the running line, that would be too early.
 
-    What is said of a line is true `REPORT_CLOCKS` after it began.
+    The outputs about a line are valid `REPORT_CLOCKS` after it began.
     """
 
     def __init__(self, config: Config) -> None:
@@ -46,7 +46,7 @@ class HeightLearner(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        # What is reported comes from far away: it is looked at a clock later.
+        # The inputs come from far away, so they are used one clock later.
         frame, line, whole, dropped, mark = (
             Signal(name=f"{name}_was") for name in ("frame", "line", "whole", "dropped", "mark")
         )
@@ -67,12 +67,12 @@ class HeightLearner(wiring.Component):
 
         seen = Signal.like(row)  # the last row of the newest whole frame
         streak = Signal(range(3))  # whole frames in a row that had it; more than two are two
-        is_same = Signal()  # known a clock later: a line that has ended began long ago
+        is_same = Signal()  # known one clock later, which is early enough: the line began long ago
         agrees = Signal()
         m.d.sync += is_same.eq(row == seen)
         m.d.comb += agrees.eq((streak != 0) & is_same)
         was_whole = Signal()
-        overran = Signal()  # lines followed this frame's last
+        overran = Signal()  # further lines followed this frame's last
         with m.If(whole):
             m.d.sync += [seen.eq(row), streak.eq(Mux(agrees, 2, 1)), was_whole.eq(1)]
         with m.If(frame):
@@ -81,7 +81,7 @@ class HeightLearner(wiring.Component):
                 m.d.sync += streak.eq(0)
 
         overran_before = Signal()
-        confirmed = Signal()  # by a third frame: lines that follow are a fault
+        confirmed = Signal()  # by a third frame: further lines are a fault
         with m.If(self.forget):
             m.d.sync += [streak.eq(0), was_whole.eq(0), overran.eq(0), overran_before.eq(0)]
         with m.FSM(name="ends") as ends:

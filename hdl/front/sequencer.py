@@ -1,4 +1,4 @@
-"""Deals pixels out as steps, and says which result leaves with which."""
+"""Turns pixels into steps, and decides which result leaves with which step."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, enum, stream, wiring
@@ -17,11 +17,11 @@ def tags_layout() -> data.StructLayout:
 
 
 class Leaving(enum.Enum, shape=2):  # type: ignore[call-arg]  # the shape is for amaranth.lib.enum
-    """Whose results leave: a bit for each state in which they do, as both are asked for in a hurry.
+    """Whose results leave. The states with results have a bit each, because timing is tight on both.
 
-    ``WAIT``: none, as the frame's first support is not complete. ``OWN``: one of the frame with each of its
-    pixels. ``DRAIN``: those that the frame before has left. The next frame may begin meanwhile, and waits
-    where results of its own would leave, or where it ends.
+    ``WAIT``: none, because the frame's first support is not complete. ``OWN``: one result of the frame with
+    each of its pixels. ``DRAIN``: the remaining results of the frame before. The next frame may begin
+    meanwhile, but it waits before its own results would leave, and before it ends.
     """
 
     WAIT = 0b00
@@ -30,23 +30,23 @@ class Leaving(enum.Enum, shape=2):  # type: ignore[call-arg]  # the shape is for
 
 
 class Sequencer(wiring.Component):
-    """Takes items from the frame guard and issues ``steps`` steps a pixel, without a pause.
+    """Takes items from the frame guard and issues ``steps`` steps per pixel, without a pause.
 
     Results leave in raster order, one with each pixel: the result of (x, y) leaves with the pixel
-    at (x + reach_right, y + reach_rows), where its support is complete. The last results of a
-    frame have no such pixel. They are border results, need no data, and leave with the first
-    pixels of the next frame, or by themselves in clocks without a pixel.
+    at (x + reach_right, y + reach_rows), which completes its support. For the last results of a
+    frame there is no such pixel. They are border results, need no data, and leave with the first
+    pixels of the next frame, or on their own in clocks without a pixel.
 
     Members
     -------
     i : items of well-formed frames.
     credit : in the next clock there is room for another result at the far end of the pipeline.
-    load : the pixel in ``i`` begins; its ``x`` and colours are valid in this clock only.
+    load : the pixel in ``i`` begins; its ``x`` and colours are valid only in this clock.
     valid, first, last, step : a step is taken; registered, one clock after ``load``.
-    first_of_line : the step's pixel is its line's first.
-    first_inner : the step's pixel is its line's first whose support lies inside the image.
-    emit, tags : a result leaves with this clock (a pixel's last step, or a drain), and its tags.
-    issued : a result was promised in this clock: a credit is used.
+    first_of_line : the step's pixel is the first of its line.
+    first_inner : the step's pixel is the first of its line whose support lies inside the image.
+    emit, tags : a result leaves in this clock (a pixel's last step, or a drain), and its tags.
+    issued : a result is promised in this clock, which uses up a credit.
     """
 
     def __init__(self, config: Config) -> None:
@@ -79,12 +79,12 @@ class Sequencer(wiring.Component):
         taken = Signal()
         starts = Signal()  # the item completes the support of the frame's first result
         ends = Signal()  # the item ends the frame
-        draining, own = Signal(), Signal()  # whose results leave: those of the frame before, or of this frame
-        drains = Signal()  # a result leaves by itself
+        draining, own = Signal(), Signal()  # results that leave are those of the frame before, or of this one
+        drains = Signal()  # a result leaves on its own
         m.d.comb += [
             starts.eq(rows.first & item.completes),
             ends.eq(item.eof | item.end),
-            # Needs a credit even if no result leaves: keeps `ready` short.
+            # This needs a credit even if no result leaves, which keeps the path of `ready` short.
             self.i.ready.eq(~steps.held & ~(draining & (starts | ends))),
             taken.eq(self.i.valid & self.i.ready),
             self.load.eq(taken & ~item.end),
@@ -94,10 +94,10 @@ class Sequencer(wiring.Component):
             rows.frame_ends.eq(taken & ends),
         ]
 
-        line_over = Signal()  # the result that leaves is its line's last
-        frame_over = Signal()  # and its frame's
+        line_over = Signal()  # the result that leaves is the last of its line
+        frame_over = Signal()  # ... and of its frame
         state = Signal(Leaving)
-        running = Signal()  # results of this frame leave since the pixel before, at least
+        running = Signal()  # results of this frame left with the pixel before, too
         m.d.comb += [
             running.eq(Value.cast(state)[0]),
             draining.eq(Value.cast(state)[1]),
@@ -114,14 +114,14 @@ class Sequencer(wiring.Component):
             with m.Case(Leaving.DRAIN), m.If(self.issued & frame_over):
                 m.d.sync += state.eq(Leaving.WAIT)
 
-        # Where the results are that leave.
+        # Where in their frame the results that leave are.
         width = Signal(range(config.max_width))  # of the frame that comes in: its last column
         width_less_1 = Signal.like(width)
-        left = Signal.like(width)  # results of the line that are still to come after the next
+        left = Signal.like(width)  # results of the line that come after the next one
         none_left = Signal()
         line_width = Signal.like(width, reset_less=True)  # of the frame that goes out
         lines_left = Signal(range(config.reach_rows + 1), reset_less=True)  # after this one
-        fresh = Signal()  # a frame without a result so far has ended: its first is next
+        fresh = Signal()  # a frame has ended before any of its results left: its first one is next
         drain_damaged = Signal(reset_less=True)
         begins = Signal()  # the frame's first result leaves with this pixel
         m.d.comb += [
@@ -139,7 +139,7 @@ class Sequencer(wiring.Component):
                 m.d.sync += [left.eq(line_width), none_left.eq(0)]
             with m.If(draining & line_over):
                 m.d.sync += lines_left.eq(lines_left - 1)
-        # A clock later: a line is longer than that, and all lines of a frame are of one width.
+        # One clock later is early enough: lines are longer than that, and those of a frame equally wide.
         begun = Signal()
         m.d.sync += begun.eq(self.load & begins)
         with m.If(begun):
@@ -154,14 +154,14 @@ class Sequencer(wiring.Component):
             with m.Else():
                 last_column = Mux(item.end, width, item.x)
                 m.d.sync += [
-                    lines_left.eq(rows.rows - item.end),  # an end comes after its last row was counted
+                    lines_left.eq(rows.rows - item.end),  # an end item comes after its last row was counted
                     fresh.eq(1),
                     left.eq(last_column),
                     none_left.eq(0),
                     line_width.eq(last_column),
                 ]
 
-        # Candidates whose partners lie in the image, but for the first; no more are counted than there are.
+        # How many candidates besides the first have their partner in the image, at most all of them.
         room = Signal(range(config.disparities))
         room_now = Signal.like(room)
         m.d.comb += room_now.eq(Mux(item.first_inner, 0, room))

@@ -1,5 +1,4 @@
-"""Where builds are kept: one folder each, with a lock and a log beside it, and a limit on their total
-size."""
+"""Where builds are kept: one folder each, with a lock and a log beside it. Their total size is limited."""
 
 import os
 import shutil
@@ -25,7 +24,7 @@ file."""
 def locked(folder: Path) -> Iterator[None]:
     """Be the only process that makes or removes the build `folder`, and note that it is in use.
 
-    Raises `ToolError` where the cache cannot be written.
+    Raises `ToolError` if the cache cannot be written.
     """
     path = _lock(folder)
     lock = FileLock(path)
@@ -83,13 +82,13 @@ def _remove(folder: Path, oldest_recent: float) -> bool:
     """Remove a build, unless another process has taken it up by now."""
     path = _lock(folder)
     if not path.exists():
-        return False  # it was removed by now
+        return False  # it has been removed meanwhile
     with suppress(OSError, Timeout), FileLock(path, blocking=False):
         if _used(path) > oldest_recent:
             return False
         shutil.rmtree(folder, ignore_errors=True)
         log_of(folder).unlink(missing_ok=True)
-        # Who waits for this lock gets it, beside whoever makes a new one: `keep` is safe for two.
+        # Whoever waits for this lock gets it, and someone else may make a new one: `keep` is safe for two.
         path.unlink()
         return True
     return False

@@ -37,7 +37,7 @@ class FramesResult:
     def cycles_per_pixel(self) -> float:
         """Sustained clocks per pixel: from the first pixel taken to the last, over the pixels between.
 
-        Stalls and gaps are in it; the results that still follow the last pixel are not.
+        This includes stalls and gaps, but not the results that follow the last pixel.
         """
         taken = self.stream.taken
         return float(taken[-1] - taken[0]) / (len(taken) - 1)
@@ -74,8 +74,8 @@ def run_frames(
     progress : called with the number of results so far.
     handed : called from another thread with each pair's number, map and seconds of simulation while the next
         are simulated; the maps are not kept then.
-    eof : whether the source marks a frame's last pixel. Without it the core learns the height from two
-        frames, and the last one needs it: there must be three at least, of one height.
+    eof : whether the source marks a frame's last pixel. Without it, the core learns the height from two
+        frames and needs it for the last one, so there must be at least three frames of the same height.
 
     Raises `InputError` for pairs that the core cannot take, before anything is built, and `ToolError`
     for a missing tool, a failed build, or a core that does not give every result in good order.
@@ -155,7 +155,7 @@ def _check_run(stream: StreamResult, job: Job) -> None:
         raise _fault(
             f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.cycles)} of"
             f" {job.expected} results, and then nothing for {job.patience} clocks",
-            # A result that is lost keeps its place in the FIFO: pixels are not admitted in the end.
+            # A result that is lost keeps its place in the FIFO, so in the end no more pixels are admitted.
             "results or sequencer" if taken_all else "results, sequencer or frame guard",
         )
     if len(stream.cycles) != job.expected:

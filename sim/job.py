@@ -38,11 +38,11 @@ class Job:
     stalls : of the source and the sink.
     resets : the core is reset when this many transfers have been taken.
     gaps : idle clocks of the source, by the number of transfers taken before them.
-    cuts : numbers of results, rising, at which those since the last cut are handed over at once, while the
-        run goes on. They are not in its record.
+    cuts : ascending numbers of results. At each, the results since the last cut are handed over at once,
+        while the run goes on; they are not in its record.
     expected : results since the last reset after which the run is complete, or None: run until quiet.
     settle : clocks that a complete run goes on, to catch surplus results.
-    patience : clocks without any transfer, though both sides are willing, after which the run stops.
+    patience : after this many clocks without a transfer, although both sides are willing, the run stops.
     """
 
     transfers: NDArray[Any]

@@ -1,6 +1,6 @@
 """The two ends of a core's streams on the bench: a source of pixel pairs and a sink of results.
 
-Each is told of every clock twice: `sample`, with the values that the core's registers see at the
+Each is told about every clock twice: `sample`, with the values that the core's registers see at the
 edge, then `drive`, whose writes take effect after it. Signals are written only when they change:
 each write costs an evaluation of the design.
 """
@@ -113,7 +113,7 @@ class Sink:
         return True
 
     def hand_over(self) -> list[str]:
-        """The results since the last time, which are kept no longer."""
+        """The results since the last call; they are no longer kept."""
         given, self.payloads = self.payloads, []
         return given
 

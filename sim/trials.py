@@ -27,7 +27,7 @@ WAITS = 1025
 
 
 class Due(NamedTuple):
-    """The packed result that is due, and the bits of it that count."""
+    """The packed result that is expected, and which of its bits count."""
 
     bits: int
     mask: int
@@ -42,14 +42,14 @@ class Trial:
     Members
     -------
     sent : packed inputs.
-    due : the results, in order; with ``exact``, no more.
-    status : the packed counters at the end; None, they are not looked at.
+        due : the expected results, in order; with ``exact``, and no others.
+        status : the packed counters at the end; None if they are not checked.
     i_pause, o_pause : shares of the clocks in which nothing is offered, and nothing taken, in 1024ths.
         With `WAITS` the sink takes what has been on offer for a clock, and nothing sooner.
     seed : of pauses and noise.
     reset : clocks of the reset. Meanwhile noise is on offer, and must not be taken.
-    cut : clocks after which it ends, complete or not; 0: it runs to its end.
-    limit : the clock by which the last result must have come; 0: at any.
+    cut : clocks after which it ends, complete or not; with 0, it runs to its end.
+    limit : the clock by which the last result must have come; with 0, any clock.
     patience : clocks without a transfer after which an incomplete run has stopped for good.
     settle : clocks that a complete one goes on without a transfer, to catch surplus results.
     """
@@ -100,7 +100,7 @@ def run_trials(verilog: str, trials: Sequence[Trial], faults: Sequence[int] = ()
             "use softdepth.sim.frames, or a smaller pixel",
         )
     defines = [f"#define I_MASK {(1 << longest) - 1}ULL", *(["#define MUTANTS"] if FAULTS in bits else [])]
-    # Where a fault turns one bit by another, a word depends on itself, its bits do not.
+    # If a fault inverts one bit by another, a word depends on itself, although its bits do not.
     flags = ("-Wno-UNOPTFLAT", "--x-initial", "unique")
     text = resources.files("softdepth.sim").joinpath("trials.cpp").read_text()
     program = build(verilog, bench=Bench("\n".join([*defines, text]), flags))

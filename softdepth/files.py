@@ -57,7 +57,7 @@ def write_atomically(path: str | Path, data: bytes) -> None:
 
 
 def check_writable(path: str | Path) -> None:
-    """Raise `InputError` where `write_atomically` could not write, so far as can be told before long work."""
+    """Raise `InputError` if `write_atomically` could not write, so far as can be told before long work."""
     path = Path(path)
     with _writing(path):
         if path.is_dir():
@@ -128,7 +128,7 @@ def move_in(source: Path, target: Path) -> None:
 
 
 def refuse_to_replace(target: Path, names: Iterable[str], inputs: Iterable[Path]) -> None:
-    """Raise `InputError` where a file that is written or removed in `target` is one that is read."""
+    """Raise `InputError` if a file that is written or removed in `target` is one that is read."""
     read = {path.resolve(): path for path in inputs}
     for name in names:
         if path := read.get((target / name).resolve()):
@@ -149,7 +149,7 @@ def result_folder(target: Path, stale: tuple[str, ...] = (), last: str = LAST) -
         removed when the new files move in.
     last : the file that is moved in last.
 
-    Raises `InputError` where `target` is no folder or cannot be written.
+    Raises `InputError` if `target` is no folder or cannot be written.
     """
     made = [folder for folder in (target, *target.parents) if not folder.exists()]
     done = False
@@ -190,7 +190,7 @@ def whole_folder(target: Path) -> Iterator[Path]:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder and its parents where they are missing; raises `InputError` where that cannot be."""
+    """Make a folder and its parents where they are missing; raises `InputError` if that cannot be."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -22,7 +22,7 @@ def title(path: str | Path) -> str:
 
 
 def read_bytes(path: str | Path) -> bytes:
-    """The contents of a file, or of standard input for ``-``; raises `InputError` where there are none."""
+    """The contents of a file, or of standard input for ``-``; raises `InputError` if there are none."""
     if is_standard_input(path):
         return _read_standard_input()
     path = Path(path)

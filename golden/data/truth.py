@@ -149,7 +149,7 @@ def _read_npy(data: bytes, path: str | Path) -> np.ndarray:
 
 
 def _ask_for_scale(levels: np.ndarray, found: str, path: str | Path, candidates: int) -> None:
-    """Raise `InputError` where gray levels are so small that the default scale is hardly theirs."""
+    """Raise `InputError` if gray levels are so small that the default scale is hardly theirs."""
     scale, largest = int(_SCALES[found]), int(levels.max())
     whole = not (levels % scale).any()
     if whole or largest >= max(candidates, scale):
@@ -162,7 +162,7 @@ def _ask_for_scale(levels: np.ndarray, found: str, path: str | Path, candidates:
 
 
 def _require_sense(disparity: np.ndarray, path: str | Path) -> None:
-    """Raise `InputError` where the disparities are of no size that a pair could have."""
+    """Raise `InputError` if the disparities are of no size that a pair could have."""
     known = np.abs(disparity[np.isfinite(disparity)])
     nonzero = known[known > 0]
     width = disparity.shape[1]

@@ -1,4 +1,4 @@
-"""A board as a stereo engine: what core it holds, and frames through it."""
+"""A board as a stereo engine: which core it holds, and frames through it."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ MAX_IDLE_FETCHES = 1000
 
 @dataclass(frozen=True)
 class Description:
-    """What a board says of itself.
+    """What a board says about itself.
 
     Members
     -------
@@ -39,7 +39,7 @@ class Description:
 class Device:
     """A board behind a link, in a session that begins here.
 
-    Raises `ToolError` where the board does not answer or describes a core that this version does not know.
+    Raises `ToolError` if the board does not answer or describes a core that this version does not know.
     """
 
     def __init__(self, link: Link) -> None:
@@ -61,7 +61,7 @@ class Device:
     ) -> "DisparityMap":
         """One frame through the core: images of the core's pixel format in, the map in the user's view out.
 
-        `progress` is called with the number of results so far. Raises `ToolError` where the link fails or
+        `progress` is called with the number of results so far. Raises `ToolError` if the link fails or
         the core reports damage.
         """
         from softdepth.golden.front.pair import check_pair

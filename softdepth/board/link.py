@@ -91,7 +91,7 @@ class Link:
     def ask(self, requests: Iterable[Request]) -> Iterator[bytes]:
         """The payload of each request's reply, in order. The next requests are under way meanwhile.
 
-        Raises `ToolError` where the board refuses, goes silent, or the line is too noisy.
+        Raises `ToolError` if the board refuses, goes silent, or the line is too noisy.
         """
         source = iter(requests)
         waiting: deque[Packet] = deque()

@@ -22,7 +22,7 @@ _FAILURES = (OSError, termios.error)
 class Port:
     """An open serial port, 8N1; a context manager that closes it.
 
-    Raises `InputError` where it cannot be opened, and `ToolError` when it goes away.
+    Raises `InputError` if it cannot be opened, and `ToolError` when it goes away.
     """
 
     def __init__(self, path: str, baud: int) -> None:

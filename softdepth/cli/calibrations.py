@@ -30,7 +30,7 @@ MARK = "The pair that softdepth run has rectified, lengths in metres."
 
 @dataclass(frozen=True)
 class Raw:
-    """The calibration of a pair that is not rectified yet."""
+    """The calibration of a pair that has not been rectified yet."""
 
     rectify: Annotated[
         list[Path] | None,

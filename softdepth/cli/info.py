@@ -54,7 +54,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
     with asked():
         core = StereoCore(config)
         latency, full_rate_latency = core.latency, core.full_rate_latency
-        del core  # it goes while Amaranth is silent
+        del core  # Amaranth is silent from here on
     line_bits, row_bits = memory_bits(config)
     cycles = width * height * config.steps
     return {
@@ -92,7 +92,7 @@ def metric_facts(config: Config, geometry: "Geometry") -> dict[str, str]:
 
 
 def _facts_of_any(config: Config) -> dict[str, str]:
-    """What is known of a configuration without asking its gateware."""
+    """What is known about a configuration without asking its gateware."""
     below = max(c.below for c in config.criteria) + config.post.below
     return {
         "candidates": f"{config.min_disparity} to {config.max_disparity}, {config.lanes} per clock",

@@ -23,7 +23,7 @@ def inspect(
         bool, typer.Option("--json", help="Figures and findings as JSON on standard output.")
     ] = False,
 ) -> None:
-    """Tell what is wrong with a pair: range, order, rows, light, texture. Findings leave the exit code 0."""
+    """Say what is wrong with a pair: range, order, rows, light, texture. Exits with 0 even with findings."""
     chosen = choice.configuration()
     from softdepth.inspect.inspection import inspect as look
 
@@ -44,7 +44,7 @@ def note(pair: "StereoPair", config: Config) -> None:
 
     plain = pair.as_format("rgb8")  # what the measurements are made for
     for finding in look(plain.left, plain.right, config).findings:
-        if finding.code != "same":  # reading the pair has said so
+        if finding.code != "same":  # reading the pair has already said so
             screen.note(f"note: {line(finding)}")
 
 
@@ -59,7 +59,7 @@ def _show(found: "Inspection", name: str) -> None:
 
 
 def facts(found: "Inspection") -> dict[str, str]:
-    """The figures, as label and text; those that rest on too few points say so."""
+    """The figures, as label and text; a figure from too few points says so."""
     measured, unknown = found.measured, "unknown: too few points are found in both views"
     rows, span, light = measured.rows, measured.span, measured.light
     return {

@@ -1,4 +1,4 @@
-"""The options that turn disparities into metres, and the files that come of it."""
+"""The options that turn disparities into metres, and the files that result."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,7 +24,7 @@ FILES = ("depth.png", "depth.tiff", "depth.pfm", "cloud.ply", "cloud.npz", "unce
 
 @dataclass(frozen=True)
 class Kept:
-    """Which results become depth, and what is said of it."""
+    """Which results become depth, and what is known about their error."""
 
     measured_only: Annotated[
         bool, typer.Option("--measured-only", help="Depth of measured results only, none that was filled in.")
@@ -42,7 +42,7 @@ class Kept:
     ] = None
 
     def choice(self) -> "Choice":
-        """As the models take it; raises `InputError` for a confidence or an error that there cannot be."""
+        """As the models take it; raises `InputError` for an impossible confidence or error."""
         from softdepth.metric.scene import Choice
 
         if self.disparity_error is not None and not 0 < self.disparity_error < float("inf"):
@@ -52,7 +52,7 @@ class Kept:
         return Choice(self.measured_only, self.min_confidence)
 
     def check(self, config: "Config", metres: bool = True) -> None:
-        """Raise `InputError` where a core cannot give what is asked for, and for options without `metres`.
+        """Raise `InputError` if a core cannot give what is asked for, and for options without `metres`.
 
         Depth, points and their colours are in the left camera's frame, which a map of the right view is not.
         """
@@ -125,13 +125,13 @@ class Cameras:
 
     @property
     def given(self) -> bool:
-        """Whether the user gave anything about the cameras."""
+        """Whether the user said anything about the cameras."""
         return bool(self.numbers or self.calibration or self.unit is not None or self.frame_id is not None)
 
     def geometry(self, size: tuple[int, int] | None) -> "Geometry":
         """The geometry of images of `size` (width, height); None is the size that was calibrated for.
 
-        Raises `InputError` where a number is missing or cannot be, and for options that contradict.
+        Raises `InputError` if a number is missing or cannot be, and for options that contradict.
         """
         if self.calibration:
             self.refuse_numbers("--calibration", self.calibration)
@@ -178,7 +178,7 @@ class Prepared(NamedTuple):
 def prepare(pair: "StereoPair", cameras: Cameras, raw: calibrations.Raw) -> Prepared:
     """Rectify a pair where the user asks for it, and find its geometry.
 
-    Raises `InputError` for options that contradict, and for a calibration that does not fit.
+    Raises `InputError` for options that contradict each other, and for a calibration that does not fit.
     """
     size = (pair.width, pair.height)
     if not raw.rectify:

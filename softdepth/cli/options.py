@@ -65,9 +65,9 @@ class Choice:
         ]
 
     def configuration(self, default: Config | None = None) -> Config:
-        """The configuration that is chosen; without a preset or a file it is `default`, or `paper`, changed.
+        """The chosen configuration; without a preset or a file, `default` (or `paper`) with the changes.
 
-        Raises `ConfigError` where the options contradict, or for what cannot be built.
+        Raises `ConfigError` if the options contradict each other, or for what cannot be built.
         """
         if self.preset and self.config:
             raise ConfigError(

@@ -72,14 +72,14 @@ class Source:
         return joined(self.side_by_side, self.top_bottom)
 
     def keep_safe(self, output: Path, names: Iterable[str], *others: Path | None) -> None:
-        """Raise `InputError` where a file of `names` in `output` is one of the pair's, or of the others."""
+        """Raise `InputError` if a file of `names` in `output` is one of the pair's, or of the others."""
         inputs = (self.left, self.right, self.truth, *others)
         refuse_to_replace(output, names, [path for path in inputs if path is not None])
 
     def read(self, config: Config) -> "StereoPair":
         """The pair, in the core's pixels; its notes go to the screen.
 
-        Raises `InputError` where the options contradict, or a file is unusable.
+        Raises `InputError` if the options contradict each other, or if a file is unusable.
         """
         scale, truth = self.truth_scale, self.truth
         if scale is not None and truth is None:
@@ -110,8 +110,8 @@ class Source:
     def read_for(self, choice: options.Choice) -> "tuple[StereoPair, Config]":
         """The pair, and the configuration that is chosen with a core as large as its images.
 
-        What the user has set of ``max_width`` and ``max_height`` stays. Raises `InputError` as `read` does,
-        and where the core cannot take the pair.
+        ``max_width`` and ``max_height`` stay as they are if the user set them. Raises `InputError` like
+        `read`, and if the core cannot take the pair.
         """
         config = choice.configuration()
         pair = self.read(config)

@@ -88,10 +88,10 @@ class Ready:
 def prepare(
     plan: Plan, choice: options.Choice | None, kept: metres.Kept, how: How, config: "Config | None" = None
 ) -> Ready:
-    """Read a sequence once, and find out all that can be wrong before long work.
+    """Read a sequence once, to find everything that is wrong before the long work begins.
 
-    `config` is that of a core which is there already; else `choice` tells it, and its core is as large as the
-    frames. Raises `InputError` and `ConfigError`.
+    `config` is that of a core that exists already. Without it, `choice` says what the core is, and it is made
+    as large as the frames. Raises `InputError` and `ConfigError`.
     """
     from softdepth.run import measure
     from softdepth.sequence import frames, input
@@ -131,9 +131,9 @@ def prepare(
 
 
 def run(ready: Ready, how: How) -> int:
-    """Compute what is missing of a sequence, write its tables and its preview, and tell it all.
+    """Compute what is missing of a sequence, write its tables and its preview, and report it.
 
-    Returns in how many pixels gateware and model differ.
+    Returns the number of pixels in which gateware and model differ.
     """
     from softdepth.sequence import preview, table, video
     from softdepth.sequence.work import Work
@@ -210,7 +210,7 @@ def _show(summary: dict, records: "list[Record]", name: str) -> None:
 
 
 def _refuse_inputs(plan: Plan, files: tuple[Path, ...]) -> None:
-    """Raise `InputError` where results would replace what is read, or a folder that is not of a sequence."""
+    """Raise `InputError` if results would replace what is read, or a folder that is not of a sequence."""
     from softdepth.sequence.frame import REPORT
     from softdepth.sequence.table import CSV, MARKDOWN, SUMMARY
 

@@ -1,4 +1,4 @@
-"""From a board and a configuration to a bitstream, with a manifest of how it came about."""
+"""From a board and a configuration to a bitstream, with a manifest of how it was made."""
 
 import hashlib
 import json
@@ -30,7 +30,7 @@ FILES = ("config.toml", "netlist.json", "nextpnr.log", "timing.json")
 
 
 class Manifest(BaseModel):
-    """``manifest.json``: all that a bitstream was made from, and what became of it.
+    """``manifest.json``: everything that a bitstream was made from, and how it turned out.
 
     Members
     -------
@@ -62,7 +62,7 @@ class Manifest(BaseModel):
 def build(board: Board, config: Config, output: Path, *, seed: int = 1) -> Manifest:
     """Build the board's top with a core of `config`; the files appear in `output` all together.
 
-    Where `output` holds the result of the same sources, tools and arguments already, it stays as it is.
+    If `output` already holds the result of the same sources, tools and arguments, it stays as it is.
 
     Raises `ConfigError` for a core that does not fit the part, `ToolError` for a missing or failed tool,
     `TimingError` (one of them) for a core that is slower than the board's clock, and `InputError` where
@@ -144,7 +144,7 @@ def _up_to_date(output: Path, key: str) -> Manifest | None:
 
 
 def constraints_file(board: Board) -> Path:
-    """The board's pin file; raises `InputError` where the project's ``constraints/`` is not there."""
+    """The board's pin file; raises `InputError` if the project's ``constraints/`` is not there."""
     path = PROJECT / "constraints" / board.constraints
     if not path.is_file():
         raise InputError(f"the pin file '{path}' is missing", "build in a clone of the project")

@@ -1,4 +1,4 @@
-"""Which block of a design takes how much of it."""
+"""How much of a design each block takes."""
 
 import re
 from collections import Counter
@@ -29,7 +29,7 @@ class Block(BaseModel):
 def blocks(netlist: Netlist, depth: int = 4) -> list[Block]:
     """The blocks of a mapped ECP5 design, by the names that its cells kept from the hierarchy.
 
-    A lookup table belongs to the block whose net it drives; where logic of two blocks was merged, that is
+    A lookup table belongs to the block whose net it drives; if logic of two blocks was merged, that is
     one of the two.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Stored limits of area: what small cores may take, so that a change that costs area does not pass unseen.
+"""Stored limits of area: what small cores may take, so that a change that costs area is noticed.
 
 ``python -m softdepth.flow.limits`` synthesises them all and prints what they take beside the limits.
 """

@@ -1,4 +1,4 @@
-"""A netlist as yosys writes it, and what passes over it need to know: who reads and who drives a net."""
+"""A netlist as yosys writes it, and what passes need to know about it: what reads and what drives a net."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
@@ -80,7 +80,7 @@ class Nets:
         return found
 
     def take_in(self, cell: Cell, registers: Mapping[str, str]) -> None:
-        """Let a cell's outputs be those of the flip-flops behind them, which go."""
+        """Let a cell's outputs take the place of the flip-flops behind them, which are removed."""
         for port, name in registers.items():
             cell["connections"][port] = self.cells[name]["connections"]["Q"]
             self.remove(name)

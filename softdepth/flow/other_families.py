@@ -1,4 +1,4 @@
-"""Families that yosys maps to and that nothing here places: what the cells of a netlist take of a part."""
+"""Families that yosys maps to and that nothing here places: how much of a part a netlist takes."""
 
 import json
 import re
@@ -25,7 +25,7 @@ class Taken:
         return Taken(self.lut + other.lut, self.ff + other.ff, self.ram + other.ram, self.dsp + other.dsp)
 
     def times(self, count: int) -> "Taken":
-        """What as many of the same take."""
+        """What this many of the same take."""
         return Taken(self.lut * count, self.ff * count, self.ram * count, self.dsp * count)
 
 
@@ -51,7 +51,7 @@ class OtherFamily:
     cells: Mapping[str, Taken]
 
     def taken(self, cells: Mapping[str, int]) -> Taken:
-        """What a netlist takes; raises `ToolError` for a cell that is none of the family's."""
+        """What a netlist takes; raises `ToolError` for a cell that the family does not have."""
         total = Taken()
         for kind, count in cells.items():
             total += self._of(kind).times(count)
@@ -128,7 +128,7 @@ OTHER_FAMILIES = {
 
 
 def synthesised(rtlil: str, family: OtherFamily) -> dict[str, int]:
-    """Cells by type of RTLIL whose top module is called `TOP`; raises `ToolError` where yosys fails."""
+    """Cells by type of RTLIL whose top module is called `TOP`; raises `ToolError` if yosys fails."""
     with tempfile.TemporaryDirectory(prefix="softdepth-") as name:
         folder = Path(name)
         (folder / "design.il").write_text(rtlil)

@@ -11,7 +11,7 @@ from softdepth.flow.tools import ToolRunError, find_tool
 from softdepth.spec.errors import ConfigError, ToolError
 
 CLOCK_TOLERANCE = 0.01
-"""How far a clock that nextpnr reckons from a PLL's settings may be from the one that is meant."""
+"""How far a clock that nextpnr reckons from a PLL's settings may be from the intended one."""
 PLACED = "placed"
 """The file that a routed design is written to."""
 
@@ -97,7 +97,7 @@ class Routed:
             )
 
     def check_timing(self) -> None:
-        """Raise `TimingError` where a clock is slower than was asked."""
+        """Raise `TimingError` if a clock is slower than was asked."""
         for clock in self.clocks:
             if not clock.met:
                 raise TimingError(clock, self.seed)

@@ -1,4 +1,4 @@
-"""What stage of a build runs, and how long each took: this time, and the last time."""
+"""Which stage of a build runs, and how long each took this time and last time."""
 
 import json
 import time

@@ -48,7 +48,7 @@ def synthesise(
     options : for yosys' synthesis command, e.g. ``-nobram``.
     passes : done to the netlist; by default those of the family.
 
-    Raises `ToolError` where yosys is missing or fails.
+    Raises `ToolError` if yosys is missing or fails.
     """
     text = design if isinstance(design, str) else to_shared_rtlil(design)
     (folder / "design.il").write_text(text)

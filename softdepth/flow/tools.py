@@ -23,7 +23,7 @@ VERSION_SECONDS = 60.0
 class _Source:
     """Where a program comes from: its package on PyPI, how to call it there, the oldest own version.
 
-    ``oldest`` is None for a program that does not tell its version: it is taken as it is.
+    ``oldest`` is None for a program that does not state its version; it is taken as it is.
     """
 
     package: str
@@ -77,7 +77,7 @@ class Tool:
             said += (folder / log).read_text(errors="replace")
         if done.returncode:
             kept = cache_folder() / "flow" / f"{self.name}.log"
-            with contextlib.suppress(OSError):  # what went wrong counts more than where its log is
+            with contextlib.suppress(OSError):  # what went wrong matters more than where its log is
                 kept.parent.mkdir(parents=True, exist_ok=True)
                 kept.write_text(said)
             raise ToolRunError(self.name, said, kept)
@@ -100,7 +100,7 @@ def first_error(log: str) -> str:
 
 @cache
 def find_tool(name: str) -> Tool:
-    """The program called `name`; raises `ToolError` where it is neither on PATH nor installed by pip."""
+    """The program called `name`; raises `ToolError` if it is neither on PATH nor installed by pip."""
     source = _SOURCES[name]
     missing = f"no {name} is installed"
     on_path = shutil.which(name)

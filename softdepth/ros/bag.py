@@ -55,7 +55,7 @@ class BagPair:
 
 @contextmanager
 def opened(path: Path) -> Iterator[AnyReader]:
-    """A bag for reading (folder of .db3 or .mcap files); raises `InputError` where it is none."""
+    """A bag for reading (folder of .db3 or .mcap files); raises `InputError` if it is none."""
     if not path.exists():
         raise InputError(f"'{path}' does not exist", "give the folder of a ROS 2 bag")
     try:
@@ -117,7 +117,7 @@ def pairs(reader: AnyReader, topics: Topics, *, tolerance: float = 0.0) -> Itera
 def geometry_of(left: Any, right: Any, frame_id: str) -> Geometry:
     """The geometry that two `camera_info` messages state by P, the projection after rectification.
 
-    ``P[3]`` of the right view is ``-f B``: ROS states the baseline through it. Raises `InputError` where it
+    ``P[3]`` of the right view is ``-f B``: ROS states the baseline through it. Raises `InputError` if it
     does not, or where the views differ in focal length or principal row.
     """
     p_left, p_right = (np.asarray(info.p, float).reshape(3, 4) for info in (left, right))

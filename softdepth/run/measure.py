@@ -58,7 +58,7 @@ class Measurement:
     seconds : wall time of each; for ``rtl`` the simulation alone, without building the simulator; for
         ``board`` the frame's way there and back.
     cycles_per_pixel, pixels_per_second : of the simulated gateware, or None.
-    link : packets and what befell them on the way to a board, or None.
+    link : packets, and what happened to them on the way to a board, or None.
     """
 
     engine: Engine
@@ -101,8 +101,8 @@ def check_fits(
 ) -> None:
     """Raise `InputError` unless a core of this configuration, perhaps a `built` one, can take the pair.
 
-    All limits that are exceeded are named at once, with what raises them; `again` makes of such options the
-    command that works.
+    All limits that are exceeded are named at once, with the options that raise them; `again` turns such
+    options into a command that works.
     """
     size = f"'{pair.name}' is {pair.width}x{pair.height}"
     have = {"max_width": pair.width, "max_height": pair.height}
@@ -135,7 +135,7 @@ def measure(
     device: "Device | None" = None,
     also: Sequence[Engine] | None = None,
 ) -> Measurement:
-    """Run `engine`, what it has to agree with, and what it is compared with, showing progress.
+    """Run `engine`, the model that it must agree with, and those that it is compared with, showing progress.
 
     The gateware goes first: a missing simulator ends the run before the models take their time.
 

@@ -126,7 +126,7 @@ def accuracy(found: "DisparityMap", truth: "Truth | None") -> Accuracy:
 
 
 def scored(truth: "Truth | None", config: Config) -> Scored | None:
-    """What of the frame is scored with this truth, and how much of it the candidates cannot reach."""
+    """Which part of the frame is scored with this truth, and how much of it the candidates cannot reach."""
     from softdepth.golden.score.metrics import coverage
 
     if truth is None:

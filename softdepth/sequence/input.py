@@ -33,7 +33,7 @@ class Input:
     scale: float | None = None
 
     def pairs(self) -> Iterator[StereoPair]:
-        """Every frame in turn; raises `InputError` where the sequence is no longer what it was."""
+        """Every frame in turn; raises `InputError` if the sequence is no longer what it was."""
         number = -1
         for number, read in enumerate(self.frames.read(self.checked.bits)):
             if number >= len(self.checked.names):

@@ -72,7 +72,7 @@ def kind_of(path: Path) -> Kind:
 def files_of(path: Path, suffixes: frozenset[str] = IMAGES) -> list[Path]:
     """The files of a folder with one of `suffixes`, or those that a pattern matches, with 2 before 10.
 
-    Raises `InputError` where there is none, or where the folder cannot be read.
+    Raises `InputError` if there is none, or where the folder cannot be read.
     """
     if is_pattern(path):
         found = [each for name in glob.glob(str(path), recursive=True) if (each := Path(name)).is_file()]

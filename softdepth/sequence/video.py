@@ -36,7 +36,7 @@ class Video:
 
     @classmethod
     def opened(cls, path: Path) -> "Video":
-        """A video that can be read; raises `InputError` where OpenCV cannot."""
+        """A video that can be read; raises `InputError` if OpenCV cannot."""
         capture = _capture(path)
         rate, count = capture.get(cv2.CAP_PROP_FPS), capture.get(cv2.CAP_PROP_FRAME_COUNT)
         capture.release()

@@ -1,4 +1,4 @@
-"""What the core with AXI streams is built with beyond its configuration."""
+"""How the core with AXI streams is built, beyond its configuration."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -8,12 +8,12 @@ from softdepth.spec.bus import Bus
 Inputs = Literal["one", "two"]
 Clocks = Literal["one", "own"]
 SKEW_LINES = 2
-"""Lines that one of two streams may be ahead, unless said otherwise."""
+"""Lines that one of two streams may be ahead by default."""
 
 
 @dataclass(frozen=True)
 class AxiOptions:
-    """Ports of the core, which decide no result.
+    """Ports of the core, which do not affect any result.
 
     Members
     -------

@@ -81,7 +81,7 @@ class Config(Settings):
     @model_validator(mode="before")
     @classmethod
     def _stored_rows_of_all(cls, given: Any) -> Any:
-        """``stored_rows`` beside the criteria says it of the highest SAD window, which all SADs share."""
+        """``stored_rows`` beside the criteria sets it for the highest SAD window, which all SADs share."""
         if not isinstance(given, dict) or stored_rows.KEY not in given:
             return given
         return stored_rows.of_the_highest(given, cls.model_fields["criteria"].default)
@@ -105,7 +105,7 @@ class Config(Settings):
         return self
 
     def shaping(self) -> dict[str, Any]:
-        """As in `Settings`: of rows in memory, how many all SADs together have, whichever says so."""
+        """As in `Settings`; rows in memory count as what all SADs share, whichever of them states it."""
         data = super().shaping()
         for criterion in data["criteria"]:
             criterion.pop(stored_rows.KEY, None)
@@ -139,7 +139,7 @@ class Config(Settings):
 
     @property
     def stored_rows(self) -> int:
-        """Rows of the SADs' columns whose costs come from memory: the most that one of them says."""
+        """Rows of the SADs' columns whose costs come from memory: the most that one of them states."""
         return max((c.stored_rows for c in self.sads), default=0)
 
     @property
@@ -237,7 +237,7 @@ class Config(Settings):
 
     @property
     def by_cell(self) -> bool:
-        """Only the eight rules around the criteria can count, whichever are said to fire.
+        """Whether only the eight rules around the criteria can count, by choice or by the operator.
 
         The others have a membership of 0, and with MIN and PROD a strength of 0.
         """

@@ -1,8 +1,8 @@
-"""The fuzzy AND of a rule, Theta (Bobyr et al. 2021, eqs. 2 to 6): what each operator states of itself.
+"""The fuzzy AND of a rule, Theta (Bobyr et al. 2021, eqs. 2 to 6): what each operator says about itself.
 
-The ranges of strengths and costs, and so every width behind them, follow from that: from a walk over the
-cells for what is linear in them, from what Theta gives at its ends for
-what is not, unless the operator states narrower ones.
+The ranges of strengths and costs, and so every width behind them, follow from this: for linear operators
+from a walk over the cells, for others from what Theta gives at its ends, unless the operator states
+narrower ones.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ GRID = 6
 
 @dataclass(frozen=True)
 class Operator:
-    """What the configuration, and all that is derived from it, has to know of an operator.
+    """What the configuration, and all that is derived from it, needs to know about an operator.
 
     Members
     -------
     title : for tables.
-    theta : the integer Theta for a configuration; monotone in both operands, or as good as.
+    theta : the integer Theta for a configuration; monotone in both operands, or nearly.
     linear : it is made of sums, minima and maxima, so that its extremes are where these meet.
-    zeroing : a membership of 0 gives a strength of 0, so that only the rules of a cell count.
+    zeroing : a membership of 0 gives a strength of 0, so only the rules of a cell count.
     products : multipliers that it takes in a lane.
     scale : what a strength of 1.0 is in units of `Config.one`.
     costs : ranges of numerator and denominator where narrower ones than the derived are known, or None.
@@ -74,7 +74,7 @@ class Operator:
 
 
 def _of_strengths(strengths: Range) -> tuple[Range, Range]:
-    """What conclusions of any strengths can come to, whether or not they occur together."""
+    """The range if conclusions could have any strengths, whether or not these occur together."""
     low, high = strengths
     positive = sum(weight(k) for k in range(1, CONCLUSIONS + 1) if weight(k) > 0)
     reach = positive * (high - low)
@@ -147,7 +147,7 @@ def _soft_min_2(config: Config) -> Theta:
 
 
 def _costs_of_product(config: Config) -> tuple[Range, Range]:
-    """A cell's strengths sum to `one` but for what rounding adds."""
+    """A cell's strengths sum to `one`, except for what rounding adds."""
     most = config.one + 3
     return (-5 * most, 5 * most), (1, most)
 
@@ -162,7 +162,7 @@ def _costs_of_mean(config: Config) -> tuple[Range, Range] | None:
 def _costs_of_soft(config: Config) -> tuple[Range, Range] | None:
     """Six conclusions of successive weights, 0 .. 5 and 0 .. -5 the worst.
 
-    Soft-min I is concave, so that its least sum is near a corner of the cell: above a third of `one`.
+    Soft-min I is concave, so its smallest sum is near a corner of the cell: above a third of `one`.
     """
     _, high = config.strength_range
     return ((-15 * high, 15 * high), (config.one // 4, 6 * high)) if config.by_cell else None

@@ -143,7 +143,7 @@ def pair_bytes(pixel: PixelFormat) -> int:
 
 
 def check_lines(config: Config) -> None:
-    """Raise `ConfigError` where a line of the largest image does not fit into a packet."""
+    """Raise `ConfigError` if a line of the largest image does not fit into a packet."""
     most = LONGEST // pair_bytes(config.pixel)
     if config.max_width > most:
         raise ConfigError(

@@ -2,8 +2,8 @@
 
 A rule names the label of each of the three criteria: 1 = low, 2 = middle, 3 = high dissimilarity.
 Conclusion ``Y_k`` is the maximum over its rules of the firing strength; ``Y_11`` (all low) is the
-best match. Both models and the gateware read the same table; how they evaluate it is their own
-business.
+best match. Both models and the gateware read the same table; how they evaluate it is up to
+them.
 """
 
 from collections.abc import Mapping

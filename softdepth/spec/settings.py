@@ -31,7 +31,7 @@ class Settings(Frozen):
 
     @classmethod
     def load(cls, path: Path) -> Self:
-        """Read a TOML file; keys left out have the defaults of the class, which are no preset's."""
+        """Read a TOML file; keys left out have the defaults of the class, not those of a preset."""
         return cls.from_dict({"name": path.stem, **cls._read(path)})
 
     @classmethod

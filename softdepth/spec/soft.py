@@ -33,7 +33,7 @@ def soft_min_1_table(one: int, softness: float) -> Table:
 def soft_min_2_table(one: int, sharpness: float) -> Table:
     """``h`` for all differences of strengths in units of ``1 / one``."""
     k = abs(sharpness)
-    # exp overflows where h has long been nothing.
+    # exp overflows where h is practically 0 already.
     return _trimmed([_rounded(d / (1 + math.exp(min(k * d / one, 700.0)))) for d in range(one + 1)])
 
 

@@ -1,4 +1,4 @@
-"""`Sad.stored_rows` said once, beside the criteria."""
+"""`Sad.stored_rows` stated once, beside the criteria."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -14,7 +14,7 @@ KEY = "stored_rows"
 def of_the_highest(given: Mapping[str, Any], default: tuple[AnyCriterion, ...]) -> dict[str, Any]:
     """Plain data in which the highest SAD (the first of these) stores the rows that `KEY` says, others none.
 
-    Raises `ValueError` for what is no number of rows, or more than that window has above its newest.
+    Raises `ValueError` for anything but a number of rows, or for more than that window has above its newest.
     """
     rest = {key: value for key, value in given.items() if key != KEY}
     rows = given[KEY]
@@ -23,7 +23,7 @@ def of_the_highest(given: Mapping[str, Any], default: tuple[AnyCriterion, ...]) 
     try:
         criteria = [criterion_of(each) for each in rest.get("criteria", default)]
     except (ValidationError, PydanticCustomError, TypeError):
-        return rest  # which is told when they are read
+        return rest  # reading them says so
     highest = max((c for c in criteria if isinstance(c, Sad)), key=lambda c: c.window, default=None)
     most = highest.window - 1 if highest else 0
     if rows > most:

@@ -73,7 +73,7 @@ def kept_rows(table: str) -> dict[str, str]:
 def manifests(folder: Path, kept: Container[str] = ()) -> dict[Board, Manifest]:
     """The manifest of each board's build, those left out that are not there and whose rows are `kept`.
 
-    Raises `InputError` where another is missing, or one is of another core.
+    Raises `InputError` if another is missing, or one is of another core.
     """
     found: dict[Board, Manifest] = {}
     for board in BOARDS.values():

@@ -57,7 +57,7 @@ class Tally:
 
 
 def read_scenes(folder: Path) -> list[Scene]:
-    """The scenes in a folder, in the order of their names; raises `InputError` where there are none."""
+    """The scenes in a folder, in the order of their names; raises `InputError` if there are none."""
     found = []
     for left in sorted(folder.glob("*/left.png")):
         pair = read_pair(left, left.with_name("right.png")).as_format("rgb8")

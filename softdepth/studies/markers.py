@@ -11,7 +11,7 @@ def markers(name: str) -> tuple[str, str]:
 def renew(text: str, document: str, name: str, content: str) -> str:
     """`text`, of `document`, with `content` between the markers of `name`.
 
-    Raises `InputError` where the markers are missing.
+    Raises `InputError` if the markers are missing.
     """
     first, last = markers(name)
     before, begin, rest = text.partition(first)

@@ -57,7 +57,7 @@ class FamilyRow(BaseModel):
 def measure(config: Config, preset: str, family: str, *, known: Iterable[FamilyRow] = ()) -> FamilyRow:
     """Synthesise a core alone, without anything around it.
 
-    What was synthesised before is taken from `known` or from the cache. Raises `ToolError` where yosys
+    What was synthesised before is taken from `known` or from the cache. Raises `ToolError` if yosys
     fails, or maps to a cell that the family is not known to have.
     """
     target = OTHER_FAMILIES[family]

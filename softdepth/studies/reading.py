@@ -41,7 +41,7 @@ def built_presets() -> list[str]:
 
 
 def read(verilog: str, commands: str) -> Reading:
-    """Let yosys read an exported core and run `commands`; raises `ToolError` where it fails."""
+    """Let yosys read an exported core and run `commands`; raises `ToolError` if it fails."""
     tool = find_tool("yosys")
     with tempfile.TemporaryDirectory(prefix="softdepth-") as name:
         folder = Path(name)

@@ -40,7 +40,7 @@ def figures(report: Report) -> str:
 
 
 def renew(text: str, report: Report) -> str:
-    """`text` with the figures of `report` between the markers; raises `InputError` where they are missing."""
+    """`text` with the figures of `report` between the markers; raises `InputError` if they are missing."""
     return markers.renew(text, "README.md", PART, figures(report))
 
 

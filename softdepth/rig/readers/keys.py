@@ -11,7 +11,7 @@ from softdepth.spec.errors import InputError
 
 
 def text(path: Path) -> str:
-    """A calibration file's text; raises `InputError` where there is none."""
+    """A calibration file's text; raises `InputError` if there is none."""
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
@@ -43,7 +43,7 @@ def value(found: Mapping[str, Any], key: str, path: Path) -> Any:
 
 
 def numbers(found: Mapping[str, Any], key: str, path: Path, shape: tuple[int, ...]) -> Matrix:
-    """The value of `key` as float64 of a shape (-1: any length); raises `InputError` where it is none."""
+    """The value of `key` as float64 of a shape (-1: any length); raises `InputError` if it is none."""
     given = value(found, key, path)
     try:
         array = np.array(given, np.float64).reshape(shape)

@@ -11,7 +11,7 @@ PAIRS = (("P_rect_02", "P_rect_03"), ("P_rect_00", "P_rect_01"), ("P2", "P3"), (
 
 
 def read(path: Path) -> Rig:
-    """The rig of the colour cameras, else of the gray ones; raises `InputError` where neither is complete."""
+    """The rig of the colour cameras, else of the gray ones; raises `InputError` if neither is complete."""
     found = keys.lines(path, ":")
     for first, second in PAIRS:
         if first in found and second in found:

@@ -66,7 +66,7 @@ def read(paths: Sequence[Path], unit: float) -> Rig:
 
 
 def _projections(q: Matrix, path: Path, unit: float) -> tuple[Matrix, Matrix]:
-    """The projections that `cv2.stereoRectify` made its Q of; raises `InputError` where it is none."""
+    """The projections that `cv2.stereoRectify` made its Q of; raises `InputError` if it is none."""
     focal, per_baseline = q[2, 3], q[3, 2]
     if focal <= 0 or per_baseline <= 0:
         raise InputError(

@@ -91,7 +91,7 @@ def exhaustive() -> str:
 
 
 def main(results: Path, project: Path) -> None:
-    """Renew the documents in `project`; raises `InputError` where results or markers are missing."""
+    """Renew the documents in `project`; raises `InputError` if results or markers are missing."""
     from softdepth.files import write_atomically
 
     try:

@@ -46,7 +46,7 @@ class MapCache:
             return None
 
     def put(self, cell: Cell, images: str, found: Found) -> None:
-        """Keep a map. Raises `InputError` where the folder cannot be written."""
+        """Keep a map. Raises `InputError` if the folder cannot be written."""
         if self.place is None:
             return
         file = io.BytesIO()
@@ -81,7 +81,7 @@ def digest(facts: dict[str, Any]) -> str:
 
 
 def make_folder(path: Path) -> None:
-    """Make a cache folder; raises `InputError` where that is not possible."""
+    """Make a cache folder; raises `InputError` if that is not possible."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:

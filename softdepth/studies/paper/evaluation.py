@@ -75,7 +75,7 @@ def write(folder: Path, document: Document, maps: Maps, reading: Reading) -> Non
 def renew(path: Path, document: Document) -> None:
     """Put the tables between the markers of a Markdown document.
 
-    Raises `InputError` where the document or its markers are missing.
+    Raises `InputError` if the document or its markers are missing.
     """
     from softdepth.studies import markers
 

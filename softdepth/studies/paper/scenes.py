@@ -32,7 +32,7 @@ def load(name: str, size: Size | None = None) -> Scene:
     Resizing is bilinear for the images and takes the nearest neighbour of the truth. Disparities
     scale with the width; gray levels, which only the paper's RMSE uses, stay the file's.
 
-    Raises `InputError` where the data set is missing or damaged.
+    Raises `InputError` if the data set is missing or damaged.
     """
     views: dict[View, StereoPair] = {
         "left": datasets.load(f"middlebury:{name}", "left"),

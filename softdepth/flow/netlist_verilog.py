@@ -64,7 +64,7 @@ def _models(yosys: Tool) -> list[str]:
         raise ToolError(
             f"{yosys.version} has no ECP5 models in '{folder}'", "use yosys 0.70 or newer"
         ) from error
-    # Without pads, which the core does not have: yosys' file includes them from elsewhere. Its models
-    # give delays too, and fill memories in a way that Verilator warns of; neither changes a clocked simulation.
+    # Without pads, which the core does not have: yosys' file includes them from elsewhere. Its models give
+    # delays too, and fill memories in a way that Verilator warns about; neither changes a clocked simulation.
     setting = ["`define NO_INCLUDES", "// verilator lint_off SPECIFYIGN", "// verilator lint_off INITIALDLY"]
     return [*setting, *theirs, *(file.read_text() for file in sorted(OWN_MODELS.glob("*.v")))]

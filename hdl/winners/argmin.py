@@ -38,6 +38,7 @@ class FractionMin(wiring.Component):
     -------
     a, b : the candidates.
     o : the better one, `latency` clocks later.
+    early : the same a clock before, out of the choice and not out of a register.
     """
 
     def __init__(self, layout: data.StructLayout, *, halves: bool = False) -> None:
@@ -49,7 +50,7 @@ class FractionMin(wiring.Component):
             members["index"] = unsigned(Shape.cast(members["index"]).width + 1)
             best = data.StructLayout(members)
         self.latency = latency(layout)
-        super().__init__({"a": In(layout), "b": In(layout), "o": Out(best)})
+        super().__init__({"a": In(layout), "b": In(layout), "o": Out(best), "early": Out(best)})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
@@ -80,14 +81,14 @@ class FractionMin(wiring.Component):
         b_wins = Signal(reset_less=True)
         best = Signal(self.o.shape(), reset_less=True)
         index = Mux(b_wins, b.index, a.index)
-        m.d.sync += [
-            b_wins.eq(wins),
-            best.num.eq(Mux(b_wins, b.num, a.num)),
-            best.den.eq(Mux(b_wins, b.den, a.den)),
-            best.excluded.eq(a.excluded & b.excluded),
-            best.index.eq(Cat(index, b_wins) if self._halves else index),
+        m.d.sync += [b_wins.eq(wins), best.eq(self.early)]
+        m.d.comb += [
+            self.early.num.eq(Mux(b_wins, b.num, a.num)),
+            self.early.den.eq(Mux(b_wins, b.den, a.den)),
+            self.early.excluded.eq(a.excluded & b.excluded),
+            self.early.index.eq(Cat(index, b_wins) if self._halves else index),
+            self.o.eq(best),
         ]
-        m.d.comb += self.o.eq(best)
         return m
 
 

@@ -5,9 +5,8 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
-from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.winners.argmin import ArgminSequence, FractionMin, candidate_layout
-from softdepth.hdl.winners.argmin import latency as node_latency
+from softdepth.hdl.winners.argmin import ArgminSequence, candidate_layout
+from softdepth.hdl.winners.tournament import tournament, tournament_latency
 
 
 class LeastFraction(wiring.Component):
@@ -25,9 +24,8 @@ class LeastFraction(wiring.Component):
         self._lanes = lanes
         self._candidate = candidate_layout(cost.members["num"], cost.members["den"], 1)
         self._sequence = ArgminSequence(self._candidate, steps)
-        self._levels = (lanes - 1).bit_length()
-        self._node_latency = node_latency(self._candidate)
-        self.latency = self._node_latency * self._levels + self._sequence.latency
+        self._time = tournament_latency(self._candidate, lanes)
+        self.latency = self._time + self._sequence.latency
         super().__init__(
             {
                 "valid": In(1),
@@ -50,23 +48,13 @@ class LeastFraction(wiring.Component):
                 candidate.excluded.eq(self.excluded[k]),
             ]
             level.append(candidate)
-        while len(level) > 1:
-            following: list[data.View] = []
-            for k in range(0, len(level) - 1, 2):
-                m.submodules[f"node_{len(level)}_{k}"] = node = FractionMin(self._candidate)
-                m.d.comb += [node.a.eq(level[k]), node.b.eq(level[k + 1])]
-                following.append(node.o)
-            if len(level) % 2:
-                m.submodules[f"wait_{len(level)}"] = wait = Delay(self._candidate, self._node_latency)
-                m.d.comb += [wait.en.eq(1), wait.i.eq(level[-1])]
-                following.append(wait.o)
-            level = following
-        time = self._node_latency * self._levels
+        least = tournament(m, level)
+        time = self._time
         m.submodules.sequence = sequence = self._sequence
         m.d.comb += [
             sequence.valid.eq(travelling(m, self.valid, time, "valid")[-1]),
             sequence.last.eq(travelling(m, self.last, time, "last")[-1]),
-            Value.cast(sequence.i).eq(Value.cast(level[0])),
+            Value.cast(sequence.i).eq(Value.cast(least)),
             self.o.num.eq(sequence.o.num),
             self.o.den.eq(sequence.o.den),
             self.found.eq(~sequence.o.excluded),

@@ -4,6 +4,7 @@ from amaranth.hdl import Const, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.winners.right_fractions import RightFractions
 from softdepth.hdl.winners.shapes import is_fraction
 
 
@@ -14,8 +15,8 @@ class RightWinner(wiring.Component):
     candidate with each left pixel, from 0 to the last, and leaves there. An excluded candidate changes
     nothing: so a line's last right pixels leave during the slots that follow the line, whatever these are.
     The state of a lane is its segment's, far end first; the near end takes over from the lane below.
-    Fractions are compared as `FractionMin` does, but within a clock: with one step a candidate's best is
-    wanted in the clock that follows.
+    Plain numbers are compared within a clock: with one step a candidate's best is wanted in the clock that
+    follows. Fractions take more (`RightFractions`).
 
     Parameters
     ----------
@@ -27,14 +28,14 @@ class RightWinner(wiring.Component):
     last : it is its slot's last.
     step : its number.
     costs, excluded : of each lane's candidate.
-    winner : of the right pixel that lies ``disparities - 1`` slots back, one clock after the first step,
-        held until the next.
+    winner : of the right pixel that lies ``disparities - 1`` slots back, `latency` clocks after the first
+        step, held until the next.
     """
-
-    latency = 1
 
     def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
         self._lanes, self._steps, self._cost = lanes, steps, cost
+        self._fractions = RightFractions(lanes, steps, cost) if is_fraction(cost) else None
+        self.latency = self._fractions.latency if self._fractions else 1
         super().__init__(
             {
                 "valid": In(1),
@@ -49,11 +50,14 @@ class RightWinner(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
+        if self._fractions:
+            m.submodules.fractions = fractions = self._fractions
+            wiring.connect(m, wiring.flipped(self), fractions)
+            return m
         steps = self._steps
         best = data.StructLayout({"cost": self._cost, "index": range(self._lanes * steps)})
-        # Nothing was found before the first candidate: any cost is less, but an infinite one, as which it
-        # counts. That is 1 / 0; a plain number is larger than any.
-        none = 1 if is_fraction(self._cost) else (1 << self._cost.size) - 1
+        # Nothing was found before the first candidate: any cost is less.
+        none = (1 << self._cost.size) - 1
         entering: Value = Const(none, best.size)
         for lane in range(self._lanes):
             ring = [Signal(best, name=f"best_{lane}_{k}", reset_less=True) for k in range(steps)]
@@ -69,7 +73,7 @@ class RightWinner(wiring.Component):
                 entering = far
             now = Signal(best, name=f"now_{lane}")
             better = Signal(name=f"better_{lane}")
-            m.d.comb += better.eq(~self.excluded[lane] & _less(self.costs[lane], before.cost))
+            m.d.comb += better.eq(~self.excluded[lane] & (self.costs[lane].num - before.cost.num)[-1])
             m.d.comb += [
                 Value.cast(now.cost).eq(Mux(better, Value.cast(self.costs[lane]), Value.cast(before.cost))),
                 now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),
@@ -82,9 +86,3 @@ class RightWinner(wiring.Component):
         m.d.comb += self.winner.eq(winner)
         return m
 
-
-def _less(a: data.View, b: data.View) -> Value:
-    """Whether a cost is less than another, as the sign of a difference."""
-    if not is_fraction(a.shape()):
-        return (a.num - b.num)[-1]
-    return (a.num * b.den - b.num * a.den)[-1]

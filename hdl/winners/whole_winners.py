@@ -182,7 +182,7 @@ class WholeWinners(wiring.Component):
                 check.emits.eq(emits),
                 check.winner.eq(delayed(m, winner_late, judged - late, "checked")),
                 check.result.eq(here),
-                check.right.eq(self._late(m, right.winner, judged - RightWinner.latency, "right")),
+                check.right.eq(self._late(m, right.winner, judged - right.latency, "right")),
             ]
             done, emits, agrees, result = check.done, check.o_emits, check.agrees, check.o
             latency += LeftRight.latency

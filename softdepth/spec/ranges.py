@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from softdepth.spec.config import Config
 
 MULTIPLIER_BITS = 18
+COMPARISON_STEPS = 4
+"""Steps from one comparison of fractions to the next that takes its result."""
 QUOTIENT_BITS = 6
 """Fraction bits of a fuzzy cost where it is wanted as a number: between candidates, and as a margin."""
 
@@ -28,6 +30,17 @@ def numbers(config: "Config") -> Range:
     return -reach, reach - 1
 
 
+def right_parts(lanes: int, steps: int) -> int:
+    """Parts of a right pixel's candidates, costs being fractions, of which each has a best of its own first.
+
+    Its candidates in a lane are ``steps - 1`` steps apart, those of two lanes with the same step ``steps**2``.
+    Where the former is too little, each step is a part; where the latter is, each in one of so many lanes.
+    """
+    if steps > COMPARISON_STEPS:
+        return 1
+    return steps * min(lanes, -(-COMPARISON_STEPS // steps**2))
+
+
 def multipliers(config: "Config") -> int:
     """See `Config.multipliers`. A comparison of fractions takes two products; those wider than a
     multiplier take several."""
@@ -40,7 +53,8 @@ def multipliers(config: "Config") -> int:
 
     comparisons = config.lanes - 1 + (config.steps - 1).bit_length()
     comparisons *= 1 + config.post.confidence  # the runner-up's are as many
-    comparisons += config.lanes * config.post.check
+    if config.post.check:
+        comparisons += config.lanes + right_parts(config.lanes, config.steps) - 1
     (num_low, num_high), (_, den_high) = costs(config)
     sign = num_low < 0
     num = max(num_high.bit_length(), (~num_low).bit_length()) + sign

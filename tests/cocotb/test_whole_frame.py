@@ -114,7 +114,9 @@ def take_the_next_right_winner(monkeypatch: pytest.MonkeyPatch) -> None:
     """The check looks at the right pixel beside the one that was chosen: a slot too late."""
 
     class Late(whole_winners.RightWinner):
-        latency = whole_winners.RightWinner.latency - ROBUST.steps
+        def __init__(self, *sizes) -> None:
+            super().__init__(*sizes)
+            self.latency -= ROBUST.steps
 
     monkeypatch.setattr(whole_winners, "RightWinner", Late)
 

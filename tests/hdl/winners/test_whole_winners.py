@@ -17,6 +17,8 @@ from softdepth.spec.config import QUOTIENT_BITS, Config
 from tests.support.simulation import observe, piped
 
 GEOMETRIES = [(4, 2), (3, 1), (2, 3), (1, 4)]
+RIGHT_GEOMETRIES = [*GEOMETRIES, (9, 1), (2, 4), (2, 5), (3, 6), (1, 9)]
+"""Also lanes that have the same parts of a right pixel, and steps enough for one comparison after the other."""
 
 
 KINDS = ("numbers", "fractions")
@@ -55,7 +57,7 @@ def bits_of(flags: list[int]) -> int:
     return sum(flag << k for k, flag in enumerate(flags))
 
 
-@pytest.mark.parametrize(("lanes", "steps"), GEOMETRIES)
+@pytest.mark.parametrize(("lanes", "steps"), RIGHT_GEOMETRIES)
 @pytest.mark.parametrize("width", [4, 19])
 @pytest.mark.parametrize("kind", KINDS)
 def test_right_winner(lanes: int, steps: int, width: int, kind: str) -> None:
@@ -79,14 +81,16 @@ def test_right_winner(lanes: int, steps: int, width: int, kind: str) -> None:
                         "excluded": bits_of(of_step(excluded, lanes, steps, step)),
                     }
                 )
-        clocks += [{"valid": 0, "first": 0, "last": 0}] * 2
+            # Slots follow each other at once or do not.
+            clocks += [{"valid": 0, "first": 0, "last": 0}] * int(rng.integers(9) * (rng.random() < 0.2))
     layout = FRACTION if kind == "fractions" else sum_layout(11)
-    found = observe(RightWinner(lanes, steps, layout), [*clocks, {}], "winner")
+    dut = RightWinner(lanes, steps, layout)
+    found = observe(dut, [*clocks, *[{"valid": 0, "first": 0}] * dut.latency], "winner")
     for number, line in enumerate(lines):
         for right in range(width):
             costs = [value(line[right + d, d], kind) for d in range(count) if right + d < width]
             slot = number * width + right + count - 1
-            assert found[slots[slot] + 1] == costs.index(min(costs)), (number, right)
+            assert found[slots[slot] + dut.latency] == costs.index(min(costs)), (number, right)
 
 
 @pytest.mark.parametrize(("lanes", "steps"), GEOMETRIES)

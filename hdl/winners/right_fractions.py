@@ -1,0 +1,128 @@
+"""The right view's winner where costs are fractions: compared in several clocks."""
+
+from amaranth.hdl import Module, Mux, Signal, Value
+from amaranth.lib import data, wiring
+from amaranth.lib.memory import Memory
+from amaranth.lib.wiring import In, Out
+
+from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.winners.argmin import FractionMin, candidate_layout, latency
+from softdepth.hdl.winners.tournament import tournament, tournament_latency
+from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
+
+
+class RightFractions(wiring.Component):
+    """As `RightWinner`, of fractions, each compared by a `FractionMin` that takes its clocks for it.
+
+    The best so far of a right pixel waits in distributed RAM until its next candidate. In one lane that comes
+    ``steps - 1`` steps later. Where this is time enough, all candidates follow each other as in `RightWinner`.
+    With fewer steps there are several bests of a right pixel, each of some of its candidates: those of the same
+    step in every lane, or in every few lanes, so that each has its next candidate ``steps**2`` steps later, or
+    a multiple of it (`right_parts`). The best of these is found at the end. An equal later candidate never takes
+    over, and at the end the smaller index does.
+
+    Parameters and members are those of `RightWinner`, but for
+    latency : clocks from a slot's first step to its winner, which is held until the next.
+    """
+
+    def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
+        self._lanes, self._steps = lanes, steps
+        self._parts = right_parts(lanes, steps)
+        self._candidate = candidate_layout(cost.members["num"], cost.members["den"], lanes * steps)
+        self._node_latency = latency(self._candidate)
+        self.latency = self._node_latency + tournament_latency(self._candidate, self._parts) + 1
+        super().__init__(
+            {
+                "valid": In(1),
+                "first": In(1),
+                "last": In(1),
+                "step": In(range(steps)),
+                "costs": In(data.ArrayLayout(cost, lanes)),
+                "excluded": In(lanes),
+                "winner": Out(range(lanes * steps)),
+            }
+        )
+
+    def elaborate(self, platform: object) -> Module:
+        m = Module()
+        lanes, steps, found_time = self._lanes, self._steps, self._node_latency - 1
+        valid = travelling(m, self.valid, found_time + 1, "valid")
+        first = travelling(m, self.first, self.latency - 1, "first")
+        one_after_the_other = steps > COMPARISON_STEPS
+        apart = 1 if one_after_the_other else self._parts // steps  # lanes that have the same parts
+        waits = steps - 1 if one_after_the_other else max(apart * steps**2, COMPARISON_STEPS)
+        assert waits > found_time
+        taken = _place(m, self.valid, waits, "taken")
+        kept = _place(m, valid[found_time], waits, "kept")
+
+        best = data.StructLayout({k: v for k, v in self._candidate.members.items() if k != "excluded"})
+        # Nothing was found before the first candidate, which is 1 / 0, and which no cost is equal to.
+        entering: list[Value] = [best.const({"num": 1, "den": 0, "index": 0}).as_value()] * apart
+        ends = []
+        for lane in range(lanes):
+            m.submodules[f"node_{lane}"] = node = FractionMin(self._candidate, halves=True)
+            m.submodules[f"waits_{lane}"] = memory = Memory(shape=best, depth=waits, init=[])
+            write, read = memory.write_port(), memory.read_port(domain="comb")
+            before, now = Signal(best, name=f"before_{lane}"), Signal(best, name=f"now_{lane}")
+            m.d.comb += [
+                *(node.a[name].eq(before[name]) for name in best.members),
+                node.b.num.eq(self.costs[lane].num),
+                node.b.den.eq(self.costs[lane].den),
+                node.b.index.eq(lane * steps + steps - 1 - self.step),
+                node.b.excluded.eq(self.excluded[lane]),
+                *(now[name].eq(node.early[name]) for name in best.members),
+                write.en.eq(valid[found_time]),
+                write.addr.eq(kept),
+                write.data.eq(now),
+                read.addr.eq(taken),
+            ]
+            came = entering[lane % apart]
+            if one_after_the_other:
+                # What the first step found goes on in the next lane, at the next slot's last step.
+                m.d.comb += Value.cast(before).eq(Mux(self.last, came, Value.cast(read.data)))
+                far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(2)]
+                with m.If(first[found_time]):
+                    m.d.sync += far[0].eq(now)
+                with m.If(self.first):
+                    m.d.sync += far[1].eq(far[0])
+                entering[0] = Value.cast(far[1])
+            else:
+                m.d.comb += Value.cast(before).eq(came)
+                entering[lane % apart] = Value.cast(read.data)
+            end = Signal(self._candidate, name=f"end_{lane}", reset_less=True)
+            m.d.sync += [end[name].eq(now[name]) for name in best.members]
+            ends.append(end)
+
+        parts = [ends[-1]]
+        if not one_after_the_other:
+            parts = self._together(m, ends[lanes - apart :], valid[-1])
+        least = tournament(m, parts)
+        winner = Signal.like(self.winner, reset_less=True)
+        with m.If(first[-1]):
+            m.d.sync += winner.eq(least.index)
+        m.d.comb += self.winner.eq(winner)
+        return m
+
+    def _together(self, m: Module, ends: list[data.View], valid: Value) -> list[data.View]:
+        """The parts of a right pixel, at the first step of the slot that its last candidate belongs to.
+
+        The last lanes find them, each with step k one slot and ``steps - 1`` steps before that with step k - 1.
+        """
+        steps, parts = self._steps, []
+        for earlier, end in enumerate(reversed(ends)):
+            waited, depth = end, earlier * steps**2
+            for k in range(steps):
+                m.submodules[f"part_{earlier}_{k}"] = wait = Delay(self._candidate, depth)
+                m.d.comb += [wait.en.eq(valid), wait.i.eq(waited)]
+                parts.append(waited := wait.o)
+                depth = steps - 1
+        return parts
+
+
+def _place(m: Module, moves: Value, places: int, name: str) -> Signal:
+    """Counts the places of a ring."""
+    place = Signal(range(places), name=name)
+    with m.If(moves):
+        m.d.sync += place.eq(Mux(place == places - 1, 0, place + 1))
+    return place

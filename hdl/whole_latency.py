@@ -29,14 +29,15 @@ from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
 
 @dataclass(frozen=True)
 class WholeLatency:
-    """Of `config`'s core, for lines of at least ``disparities`` and ``column + 1`` pixels.
+    """Of `config`'s core, for lines of at least ``narrowest`` pixels.
 
     Members
     -------
     rows, column : the last pixel that line y's results need is at (column, y + rows).
     clocks : from the clock in which that pixel is taken to that in which the line's last result can be,
-        where pixels come slowly and that result is a measurement. Exact with a left-right check; without one
-        it may be a few clocks off, as a line's last slots then follow each other without waiting for pixels.
+        where pixels come slowly and that result is a measurement.
+    narrowest : pixels of the shortest line of which that is so. A line's last results come in a row, and those
+        of a shorter one would meet the repeats of its first in a stage's window.
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
     ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
@@ -46,6 +47,7 @@ class WholeLatency:
     rows: int
     column: int
     clocks: int
+    narrowest: int
     right: int
     below: int
     drain: int
@@ -61,12 +63,15 @@ class WholeLatency:
         # A line's last pixel waits for the next to come, which may be the frame's end; the right view's
         # winners are known so many columns later, which are the next line's.
         column = config.disparities - 2 + ahead + late if post.check else 0
+        # With the last pixel: repeats of its column, and what follows from windows that look ahead.
+        in_a_row = 1 + (ISLAND_REACH if post.island else 0) + (0 if post.check else ahead + reach.right)
         with asked():
             clocks = _up_to_winners(config, ahead) + _behind(config)
         return cls(
             rows=reach.below + post.below + ahead + 1,
             column=column,
             clocks=clocks,
+            narrowest=max(config.disparities, column + 1, in_a_row + 1),
             right=reach.right,
             below=reach.below,
             drain=drain_of(config),
@@ -101,7 +106,12 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
-    checked = LeftRight.latency if post.check else ahead * clocks_of(steps) + plan(config).right * steps
+    if post.check:
+        checked = LeftRight.latency
+    else:
+        # The line's last slots follow each other. `FrameEnds` lets its last pixel go in the clock in which
+        # the pixel that follows comes.
+        checked = (ahead + plan(config).right) * steps - FrameEnds.latency
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
 
 
@@ -120,9 +130,5 @@ def _behind(config: Config) -> int:
     if post.median:
         clocks += window(MEDIAN_REACH, median_of(config).latency)
     if post.masked_median:
-        stage = masked_medians_of(config)
-        clocks += stage.latency + QUEUE_LATENCY
-        # A line's last results come in a row, as windows repeat its last column.
-        in_a_row = ISLAND_REACH * bool(post.island) + MEDIAN_REACH * bool(post.median)
-        clocks += in_a_row * (stage.clocks - folds)
+        clocks += masked_medians_of(config).latency + QUEUE_LATENCY
     return clocks

@@ -15,12 +15,12 @@ from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 class RightFractions(wiring.Component):
     """As `RightWinner`, of fractions, each compared by a `FractionMin` that takes its clocks for it.
 
-    The best so far of a right pixel waits in distributed RAM until its next candidate. In one lane that comes
-    ``steps - 1`` steps later. Where this is time enough, all candidates follow each other as in `RightWinner`.
-    With fewer steps there are several bests of a right pixel, each of some of its candidates: those of the same
-    step in every lane, or in every few lanes, so that each has its next candidate ``steps**2`` steps later, or
-    a multiple of it (`right_parts`). The best of these is found at the end. An equal later candidate never takes
-    over, and at the end the smaller index does.
+    The best so far of a right pixel waits in distributed RAM for its next candidate. In one lane that comes
+    ``steps - 1`` steps later. Where this is time enough, all candidates follow each other as in
+    `RightWinner`. With fewer steps there are several bests of a right pixel, each of a part of its
+    candidates (`right_parts`): those of the same step in every lane, whose next comes ``steps**2`` steps
+    later, or in every few lanes, whose next comes a multiple of that later. At the end the best of these is
+    found, and of equal ones that of the smallest index. A later candidate never takes over from an equal one.
 
     Parameters and members are those of `RightWinner`, but for
     latency : clocks from a slot's first step to its winner, which is held until the next.
@@ -107,7 +107,7 @@ class RightFractions(wiring.Component):
     def _together(self, m: Module, ends: list[data.View], valid: Value) -> list[data.View]:
         """The parts of a right pixel, at the first step of the slot that its last candidate belongs to.
 
-        The last lanes find them, each with step k one slot and ``steps - 1`` steps before that with step k - 1.
+        The last lanes find them: with each step one slot, less a step, before that with the step before.
         """
         steps, parts = self._steps, []
         for earlier, end in enumerate(reversed(ends)):

@@ -85,4 +85,3 @@ class RightWinner(wiring.Component):
             m.d.sync += winner.eq(now.index)
         m.d.comb += self.winner.eq(winner)
         return m
-

@@ -12,7 +12,7 @@ from softdepth.hdl.winners.argmin import FractionMin, latency
 def tournament(m: Module, candidates: Sequence[data.View]) -> data.View:
     """The best of ``candidates``, `tournament_latency` clocks later; on a tie that of the smallest index.
 
-    Unlike in `ArgminTree`, indices come with the candidates, and those that are excluded need not be the last.
+    Unlike in `ArgminTree`, indices come with the candidates, and excluded ones need not be the last.
     """
     level = list(candidates)
     layout = level[0].shape()

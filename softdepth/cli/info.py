@@ -114,7 +114,8 @@ def _facts_of_whole(config: Config, clock: float, width: int, height: int) -> di
         "clocks per pixel": str(config.steps),
         "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
-        "latency": f"{whole.clocks} clocks after column {whole.column} of the line {whole.rows} below",
+        "latency": f"{whole.clocks} clocks after column {whole.column} of the line {whole.rows} below,"
+        f" of lines from {whole.narrowest} pixels on",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",
         "clocks per frame": f"{cycles} at {width}x{height}",
         "frames per second": f"{clock * 1e6 / cycles:.1f} at {clock:g} MHz",

@@ -29,7 +29,12 @@ def utilization(
         int, typer.Option("--disparities", metavar="N", help="Candidates per pixel.")
     ] = 64,
     width: Annotated[int, typer.Option("--width", metavar="N", help="The longest line.")] = 1280,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help="Where nextpnr starts from.")] = 1,
+    seed: Annotated[
+        int,
+        typer.Option(
+            "--seed", metavar="N", min=0, help="Where nextpnr starts from; the first, where there are three."
+        ),
+    ] = 1,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", metavar="DIR", help="Folder of utilization.md and utilization.json."),
@@ -39,6 +44,7 @@ def utilization(
 
     With --row, --quick or --families, the page's other rows stay as they are. A netlist that was placed and
     routed before is not again: its figures are taken from the page that is renewed, or from the cache.
+    Several seeds of a row, at once or one after the other, are one line of it: that of the median clock.
     """
     from softdepth.studies import other_families, utilization, utilization_page
 
@@ -47,7 +53,9 @@ def utilization(
             "--families measures other rows than --row and --quick", "ask for one of them at a time"
         )
     usual = utilization_page.QUICK if quick else utilization_page.RECOMMENDED
-    rows = [_selection(text, seed) for text in row or ()] or [(each, seed) for each in usual]
+    rows = [_selection(text, seed) for text in row or ()] or [
+        (each, its_seed) for each in usual for its_seed in utilization_page.seeds_of(each, seed)
+    ]
     configs = [each.config(disparities, width) for each, _ in rows]  # all are sound before the first is built
     if not output.is_dir():
         raise InputError(f"folder '{output}' does not exist", "create it first, or choose another with -o")

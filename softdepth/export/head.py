@@ -83,7 +83,7 @@ def _time(interface: Interface) -> str:
         " low meanwhile. The results of line y need the pixels up to column"
         f" {whole.column} of line y + {whole.rows}. With o_ready at 1 the line's last can be taken"
         f" {interface.latency} clocks after that pixel is, where pixels come slowly and lines have at least"
-        f" {max(c.disparities, whole.column + 1)}; where they are always on offer, some wait in queues."
+        f" {whole.narrowest}; where they are always on offer, some wait in queues."
     )
     if c.post.fill:
         text += (

@@ -33,8 +33,9 @@ def numbers(config: "Config") -> Range:
 def right_parts(lanes: int, steps: int) -> int:
     """Parts of a right pixel's candidates, costs being fractions, of which each has a best of its own first.
 
-    Its candidates in a lane are ``steps - 1`` steps apart, those of two lanes with the same step ``steps**2``.
-    Where the former is too little, each step is a part; where the latter is, each in one of so many lanes.
+    Its candidates in a lane are ``steps - 1`` steps apart, those of two lanes with the same step
+    ``steps**2``. Where the former is too little, each step is a part, and where the latter is, each step in
+    every few lanes.
     """
     if steps > COMPARISON_STEPS:
         return 1

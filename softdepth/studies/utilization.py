@@ -4,7 +4,7 @@ import contextlib
 import hashlib
 import json
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Self
@@ -77,7 +77,8 @@ class Measurement(BaseModel):
 
     Members
     -------
-    key : changes with all that nextpnr was given: netlist, part, aim, seed and its own version.
+    key : changes with all that nextpnr was given: netlist, options, part, aim, seed and its own version.
+    but_for_seed : changes with all of these but the seed; empty in earlier measurements.
     wrapper_lut4, wrapper_ff : what of the row's figures is not the core but the shift registers around it.
     critical_path : what limits `Row.fmax_mhz`.
     blocks : cells by block of the core.
@@ -86,6 +87,7 @@ class Measurement(BaseModel):
 
     row: Row
     key: str
+    but_for_seed: str = ""
     config_hash: str
     seed: int
     wrapper_lut4: int
@@ -147,8 +149,8 @@ def measure(
 ) -> Measurement:
     """Synthesise, place and route a core and take its figures.
 
-    Of a netlist that was placed and routed before with the same seed and the same nextpnr, the figures are
-    taken from `known` or from the cache: that is where the hours go.
+    Of a netlist that was placed and routed before, with the same seed and options and by the same nextpnr,
+    the figures are taken from `known` or from the cache: that is where the hours go.
 
     Parameters
     ----------
@@ -166,7 +168,9 @@ def measure(
         with stages.stage("synthesis"):
             options = FAMILIES[part.family].synthesis_options(part)
             netlist = synthesise(top, part.family, work, options=options)
-        key = _key((work / "netlist.json").read_bytes(), preset, part, seed)
+        given = [preset, str(part), AIM_MHZ, *_nextpnr(part)]
+        but_for_seed = _key((work / "netlist.json").read_bytes(), given)
+        key = _key(but_for_seed.encode(), [seed])
         kept = cache_folder() / "flow" / "rows" / f"{key}.json"
         for earlier in known:
             if earlier.key == key:
@@ -178,6 +182,7 @@ def measure(
     found = Measurement(
         row=row_of(config, preset, part, routed),
         key=key,
+        but_for_seed=but_for_seed,
         config_hash=config.hash,
         seed=seed,
         wrapper_lut4=top.lut4,
@@ -218,8 +223,13 @@ def row_of(config: Config, preset: str, part: Part, routed: Routed) -> Row:
     )
 
 
-def _key(netlist: bytes, preset: str, part: Part, seed: int) -> str:
-    digest = hashlib.sha256(netlist)
-    facts = [preset, str(part), seed, AIM_MHZ, find_tool(FAMILIES[part.family].placer).version]
+def _nextpnr(part: Part) -> list[str]:
+    """What the part's nextpnr is called with, and its version."""
+    family = FAMILIES[part.family]
+    return [*family.place(part, "netlist", "placed", None), find_tool(family.placer).version]
+
+
+def _key(content: bytes, facts: Sequence[object]) -> str:
+    digest = hashlib.sha256(content)
     digest.update(json.dumps(facts).encode())
     return digest.hexdigest()[:20]

@@ -56,11 +56,19 @@ _ROBUST = [
 RECOMMENDED = (*_PAPERS, *_OPERATORS, *_ROBUST)
 """The rows of the table."""
 
+SEEDS = 3
+"""Of which the rows of `robust` are the median: how fast these are is promised."""
+
 QUICK = tuple(row for row in RECOMMENDED if row.lanes == 8 and row.operator == "mean")
 """The rows that take minutes, not hours."""
 
 DETAILED = "paper/mean/32"
 """The row whose blocks are listed, where it is among the rows."""
+
+
+def seeds_of(selection: Selection, first: int) -> tuple[int, ...]:
+    """The seeds that a recommended row is measured with, from the `first` on."""
+    return tuple(range(first, first + (SEEDS if selection in _ROBUST else 1)))
 
 
 def load(folder: Path) -> list[Measurement]:
@@ -76,8 +84,7 @@ def load(folder: Path) -> list[Measurement]:
 def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Measurement]:
     """The known measurements, new ones of the same row and seed in their place, and the others behind.
 
-    Of a row that is measured again, other seeds stay only where the netlist is the same, as far as its
-    blocks tell.
+    Of a row that is measured again, other seeds stay only where nextpnr was given the same, but for the seed.
     """
     found = {(*_identity(each.row), each.seed): each for each in known}
     for each in new:
@@ -186,5 +193,7 @@ def _middle(seeds: Sequence[object]) -> int:
 
 
 def _alike(a: Measurement, b: Measurement) -> bool:
-    """Whether two measurements are of equal netlists, as far as their blocks tell."""
+    """Whether nextpnr was given the same but for the seed; of earlier measurements, as far as blocks tell."""
+    if a.but_for_seed and b.but_for_seed:
+        return a.but_for_seed == b.but_for_seed
     return a.blocks == b.blocks

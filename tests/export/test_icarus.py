@@ -136,30 +136,60 @@ def test_latencies_are_as_stated(preset: str, disparities: int, lanes: int, tmp_
 
 
 WHOLE = ["max_width=16", "max_height=32", "disparities=4", "lanes=2"]
-LESS = ["post.check=false", "post.median=0", "post.masked_median=0", "post.fill=false"]
 FULL = [pytest.mark.full, pytest.mark.slow]
+UNCHECKED = "post.check=false"
+NO_STAGE = ["post.island=0", "post.median=0", "post.masked_median=0", "post.fill=false"]
+STAGES = [
+    NO_STAGE,
+    [*NO_STAGE, "post.fraction_bits=0", "post.confidence=false"],
+    [*NO_STAGE, "post.fill=true"],
+    [*NO_STAGE, "post.island=4"],
+    [*NO_STAGE, "post.median=5"],
+    [*NO_STAGE, "post.masked_median=2"],
+    ["post.masked_median=2"],
+]
+LANES = (1, 2, 4)
+COMBINATIONS = [
+    [f"lanes={lanes}", "pixel=gray8", check, *stages]
+    for lanes in LANES
+    for check in (UNCHECKED, "post.check=true")
+    for stages in STAGES
+]
+"""One step, some, and one lane; with the check and without; no stage behind the winners, each alone, and all."""
+QUICK = COMBINATIONS[: len(STAGES) : len(STAGES) - 1]
+"""One lane without the check: no stage, and all."""
 
 
 @pytest.mark.parametrize(
     ("preset", "changes"),
     [
         ("robust-small", []),
-        pytest.param("robust-small", LESS, marks=FULL),
+        *(
+            pytest.param("robust-small", each, marks=[] if each in QUICK else FULL, id=" ".join(each))
+            for each in COMBINATIONS
+        ),
         pytest.param("robust", ["post.masked_median=0", "pixel=gray8"], marks=FULL),
-        pytest.param("robust-small", [*LESS[2:], "lanes=1", "post.fraction_bits=0"], marks=FULL),
+        pytest.param("robust", ["pixel=gray8", UNCHECKED, *NO_STAGE], marks=FULL),
+        pytest.param("robust-small", ["pixel=gray8", UNCHECKED, "min_disparity=-2"], marks=FULL),
+        pytest.param("robust-small", ["pixel=gray8", UNCHECKED, "min_disparity=2"], marks=FULL),
+        pytest.param("paper", ["post.check=true"], marks=FULL),
+        pytest.param("paper", ["post.fraction_bits=4"], marks=FULL),
         pytest.param("sad", ["post.check=true", "post.island=4"], marks=FULL),
         pytest.param("sad", ["post.check=true"], marks=FULL),
+        pytest.param("sad", ["post.island=4"], marks=FULL),
     ],
 )
 def test_latencies_of_sums_down_columns(preset: str, changes: list[str], tmp_path: Path) -> None:
     """A line's last result, from the pixel that the head names, where pixels come slowly.
 
-    The first core has every stage; the others leave out those that change what a stage waits for.
+    Of lines as short as the head allows, and of eight pixels at least: some are to be measured.
     """
     config = Config.preset(preset).override([*WHOLE, *changes])
     core = export_core(config)
     needs = json.loads(core.json)["needs"]
-    width, height = 8, needs["rows"] + 2
+    text = re.sub(r"\n//\s+", " ", core.verilog)
+    (narrowest,) = re.findall(r"lines have at least (\d+)", text)
+    width, height = max(int(narrowest), 8), needs["rows"] + 2
     pair = of_pixel(images(1, width, height), config)
     seen = run_icarus(
         core.verilog, pixels([pair], config), tmp_path, gap=(width + 15) * config.steps, patience=2000
@@ -172,7 +202,6 @@ def test_latencies_of_sums_down_columns(preset: str, changes: list[str], tmp_pat
         for y in range(height - needs["rows"])
         if measured[y]
     }
-    text = re.sub(r"\n//\s+", " ", core.verilog)
     (stated,) = re.findall(
         rf"up to column {needs['column']} of line y \+ {needs['rows']}\. With o_ready at 1 the line's last"
         r" can be taken (\d+) clocks after that pixel is, where pixels come slowly",

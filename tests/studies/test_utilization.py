@@ -9,6 +9,7 @@ from amaranth.sim import Simulator
 
 from softdepth.cli.app import main
 from softdepth.flow.blocks import blocks
+from softdepth.flow.families import ecp5
 from softdepth.flow.limits import taken
 from softdepth.flow.measuring_top import MeasuringTop
 from softdepth.flow.route import Clock, CriticalPath, Routed, Usage
@@ -179,6 +180,25 @@ def test_another_nextpnr_measures_again(runs, monkeypatch):
     monkeypatch.setattr(utilization, "find_tool", lambda name: Tool(name, (name,), "another version"))
     assert utilization.measure(config, "lite").key != first.key
     assert runs == [1, 1]
+
+
+def test_other_options_of_nextpnr_measure_again(runs, tmp_path, monkeypatch):
+    """Neither figures nor a median are of two kinds of runs."""
+    row = ("--row", "sad/sum/8@1", "--row", "sad/sum/8@2", "-o", str(tmp_path))
+    assert main(["utilization", *row]) == 0
+    before = utilization_page.load(tmp_path)
+    monkeypatch.setattr(ecp5, "PATIENCE", ["--placer-heap-cell-placement-timeout", "9"])
+    assert main(["utilization", *row[:2], *row[4:]]) == 0
+    (after,) = utilization_page.load(tmp_path)
+    assert after.key not in {each.key for each in before}
+    assert {each.but_for_seed for each in before} == {before[0].but_for_seed} != {after.but_for_seed}
+    assert runs == [1, 2, 1]
+
+
+def test_rows_whose_speed_is_promised_have_three_seeds():
+    seeds = {each.preset: utilization_page.seeds_of(each, 1) for each in utilization_page.RECOMMENDED}
+    assert seeds["robust"] == seeds["robust-small"] == (1, 2, 3)
+    assert seeds["paper"] == (1,)
 
 
 def test_what_the_page_holds_is_not_measured_again(runs, cache, tmp_path):

@@ -44,10 +44,13 @@ def tiles(a: int, b: int) -> int:
         ({"operator": "soft_min_1", "disparities": 4, "lanes": 2}, 4),
         ({"operator": "soft_min_1", "disparities": 2, "lanes": 1, "softness": 0.5}, 2),
         ({"operator": "soft_min_2", "disparities": 4, "lanes": 2}, 4),
-        # Two lanes and steps: two comparisons, as many of the runner-up, and one a lane of the right winner.
-        ({"disparities": 4, "lanes": 2, "post": {"check": True}}, 2 * (2 + 2)),
+        # Two lanes and steps: two comparisons, as many of the runner-up, and of the right winner one a lane,
+        # and one of the two parts.
+        ({"disparities": 4, "lanes": 2, "post": {"check": True}}, 2 * (2 + 3)),
+        ({"disparities": 5, "lanes": 1, "post": {"check": True}}, 2 * (3 + 1)),
+        ({"disparities": 5, "lanes": 5, "post": {"check": True}}, 2 * (4 + 5 + 3)),
         ({"disparities": 4, "lanes": 2, "post": {"fraction_bits": 4, "confidence": True}}, 2 * (2 + 2)),
-        ({"disparities": 4, "lanes": 2, "post": {"check": True, "confidence": True}, "criteria": MIXED}, 14),
+        ({"disparities": 4, "lanes": 2, "post": {"check": True, "confidence": True}, "criteria": MIXED}, 16),
     ],
     ids=str,
 )

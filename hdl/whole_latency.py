@@ -36,8 +36,8 @@ class WholeLatency:
     rows, column : the last pixel that line y's results need is at (column, y + rows).
     clocks : from the clock in which that pixel is taken to that in which the line's last result can be,
         where pixels come slowly and that result is a measurement.
-    narrowest : pixels of the shortest line of which that is so. A line's last results come in a row, and those
-        of a shorter one would meet the repeats of its first in a stage's window.
+    narrowest : pixels of the shortest line of which that is so. A line's last results come in a row, and
+        those of a shorter one would meet the repeats of its first in a stage's window.
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
     ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
@@ -106,12 +106,10 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
-    if post.check:
-        checked = LeftRight.latency
-    else:
-        # The line's last slots follow each other. `FrameEnds` lets its last pixel go in the clock in which
-        # the pixel that follows comes.
-        checked = (ahead + plan(config).right) * steps - FrameEnds.latency
+    # Without a check a line's last slots follow each other, and `FrameEnds` lets its last pixel go in the clock
+    # in which the pixel that follows comes.
+    row = (ahead + plan(config).right) * steps - FrameEnds.latency
+    checked = LeftRight.latency if post.check else row
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
 
 

@@ -155,7 +155,7 @@ COMBINATIONS = [
     for check in (UNCHECKED, "post.check=true")
     for stages in STAGES
 ]
-"""One step, some, and one lane; with the check and without; no stage behind the winners, each alone, and all."""
+"""One lane, two, and all; with the check and without; no stage behind the winners, each alone, and all."""
 QUICK = COMBINATIONS[: len(STAGES) : len(STAGES) - 1]
 """One lane without the check: no stage, and all."""
 

@@ -18,7 +18,7 @@ from tests.support.simulation import observe, piped
 
 GEOMETRIES = [(4, 2), (3, 1), (2, 3), (1, 4)]
 RIGHT_GEOMETRIES = [*GEOMETRIES, (9, 1), (2, 4), (2, 5), (3, 6), (1, 9)]
-"""Also lanes that have the same parts of a right pixel, and steps enough for one comparison after the other."""
+"""Also lanes that have the same parts of a right pixel, and steps enough for comparisons in a row."""
 
 
 KINDS = ("numbers", "fractions")

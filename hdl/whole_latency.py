@@ -106,8 +106,8 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0
     judged += Sixteenths.latency if post.fraction_bits else Confidence.latency
-    # Without a check a line's last slots follow each other, and `FrameEnds` lets its last pixel go in the clock
-    # in which the pixel that follows comes.
+    # Without a check a line's last slots follow each other, and `FrameEnds` lets its last pixel go in the
+    # clock in which the pixel that follows comes.
     row = (ahead + plan(config).right) * steps - FrameEnds.latency
     checked = LeftRight.latency if post.check else row
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY

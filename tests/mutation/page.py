@@ -8,7 +8,7 @@ from tests.mutation.study import Outcome
 PART = "mutation"
 ROOMS = ("front", "costs", "winners", "post", "")
 KINDS = {
-    "equivalent": "no input tells it from the sound core",
+    "equivalent": "no input can tell it from the sound core",
     "tested": "found by other tests",
     "": "not explained",
 }
@@ -20,18 +20,18 @@ def rate(outcomes: Sequence[Outcome]) -> float:
 
 
 def page(found: Mapping[str, Sequence[Outcome]], measured: str) -> str:
-    """What was found by core and room, and each fault that was not, with what is said of it."""
+    """What was found by core and room, and each fault that was not, with the reason."""
     everything = [outcome for outcomes in found.values() for outcome in outcomes]
     missed = [(name, each) for name, outcomes in found.items() for each in outcomes if not each.killed]
     lines = [
         f"{len(everything)} faults, of which {sum(each.killed for each in everything)} are found"
         f" ({rate(everything):.1%}). {measured}.",
         "",
-        f"| core | {' | '.join(room or 'of several' for room in ROOMS)} | found |",
+        f"| core | {' | '.join(room or 'several rooms' for room in ROOMS)} | found |",
         f"|---|{'---:|' * (len(ROOMS) + 1)}",
         *(_row(name, outcomes) for name, outcomes in found.items()),
         "",
-        f"By what they are found: {', '.join(_by_what(everything))}.",
+        f"How they were noticed: {', '.join(_by_what(everything))}.",
         "",
         f"The {len(missed)} that are not found:",
         "",

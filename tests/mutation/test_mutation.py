@@ -31,7 +31,7 @@ def test_what_is_not_found_is_listed_with_its_reason() -> None:
     assert "3 faults, of which 1 are found (33.3%)" in text
     assert "| sad | 1 of 3 | - | - | - | - | 33.3% |" in text
     assert "result is wrong (1)" in text
-    assert "no input tells it from the sound core: b is never 0 |" in text
+    assert "no input can tell it from the sound core: b is never 0 |" in text
     assert "| not explained |" in text
 
 

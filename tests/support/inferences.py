@@ -45,6 +45,20 @@ def settings(bits: int, *label_bits: int, windows: Sequence[int] = (3, 3, 3), **
     return config(disparities=2, lanes=1, membership_bits=bits, criteria=criteria, **keys)
 
 
+def small(settings: Callable[..., Config]) -> dict[str, Config]:
+    """By name, what `settings` makes of sizes at which every position of the criteria can be tried."""
+    found = (
+        settings(2, 4, 4, 4),
+        settings(2, 12, 5, 9),
+        settings(3, 4, 4, 4),
+        # Criteria that never reach 2T, nor T, nor half of it.
+        settings(3, 11, 9, 7, windows=(3, 1, 1)),
+        settings(3, 9, 10, 12, windows=(1, 3, 1)),
+        settings(2, 14, 14, 15, windows=(1, 3, 1)),
+    )
+    return {f"{c.membership_bits} bits, {[s.label_bits for s in c.criteria]}": c for c in found}
+
+
 def positions(c: Config, i: int, maximum: int | None = None) -> list[int]:
     """Every membership position of a criterion, once or from both ends of its range, and beyond 2T."""
     criterion = c.criteria[i]

@@ -11,11 +11,12 @@ import pytest
 from softdepth.hdl.costs.fuzzy.cell_mean_inference import CellMeanInference
 from softdepth.spec.config import LITERAL_INPUT, Config, PixelFormat
 from softdepth.spec.rules import CORRECTED, PRINTED, RuleBase, weight
-from tests.support.inferences import Values, around_the_labels, gateware, model, positions, stimulus
+from tests.support.inferences import Values, around_the_labels, gateware, model, positions, small, stimulus
 from tests.support.inferences import settings as any_settings
 from tests.support.simulation import observe
 
 settings = partial(any_settings, operator="mean", rules="corrected", firing="cell")
+SMALL = small(settings)
 
 
 def fraction(c: Config, values: Values, rules: RuleBase = CORRECTED) -> tuple[int, int]:
@@ -44,20 +45,9 @@ def differing(c: Config, sets: Sequence[Values], maxima: list[int] | None = None
     return [entry for entry in zip(sets, got, wanted, strict=True) if entry[1] != entry[2]]
 
 
-@pytest.mark.parametrize(
-    "c",
-    [
-        settings(2, 4, 4, 4),
-        settings(2, 12, 5, 9),
-        settings(3, 4, 4, 4),
-        # Criteria that never reach 2T, nor T, nor half of it.
-        settings(3, 11, 9, 7, windows=(3, 1, 1)),
-        settings(3, 9, 10, 12, windows=(1, 3, 1)),
-        settings(2, 14, 14, 15, windows=(1, 3, 1)),
-    ],
-    ids=lambda c: f"{c.membership_bits} bits, {[s.label_bits for s in c.criteria]}",
-)
-def test_equals_the_rules_at_every_position(c: Config) -> None:
+@pytest.mark.parametrize("name", SMALL)
+def test_equals_the_rules_at_every_position(name: str) -> None:
+    c = SMALL[name]
     maxima = [criterion.maximum_of(PixelFormat.RGB8) for criterion in c.criteria]
     sets = list(product(*(positions(c, i, maximum) for i, maximum in enumerate(maxima))))
     assert differing(c, sets) == []

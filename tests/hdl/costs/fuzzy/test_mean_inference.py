@@ -9,24 +9,14 @@ import pytest
 from softdepth.golden import fixed_model
 from softdepth.hdl.costs.fuzzy.inference import RuleInference
 from softdepth.hdl.costs.fuzzy.mean_inference import MeanInference
-from softdepth.spec.config import Config
-from tests.support.inferences import around_the_labels, gateware, model, positions, settings
+from tests.support.inferences import around_the_labels, gateware, model, positions, settings, small
+
+SMALL = small(settings)
 
 
-@pytest.mark.parametrize(
-    "c",
-    [
-        settings(2, 4, 4, 4),
-        settings(2, 12, 5, 9),
-        settings(3, 4, 4, 4),
-        # Criteria that never reach 2T, nor T, nor half of it.
-        settings(3, 11, 9, 7, windows=(3, 1, 1)),
-        settings(3, 9, 10, 12, windows=(1, 3, 1)),
-        settings(2, 14, 14, 15, windows=(1, 3, 1)),
-    ],
-    ids=lambda c: f"{c.membership_bits} bits, {[s.label_bits for s in c.criteria]}",
-)
-def test_equals_the_fixed_model_at_every_position(c: Config) -> None:
+@pytest.mark.parametrize("name", SMALL)
+def test_equals_the_fixed_model_at_every_position(name: str) -> None:
+    c = SMALL[name]
     sets = list(product(*(positions(c, i) for i in range(3))))
     assert gateware(MeanInference, c, sets) == model(c, sets)
 

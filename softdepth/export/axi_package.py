@@ -1,4 +1,4 @@
-"""The core with AXI streams as a package: what a design takes in to use it."""
+"""The core with AXI streams as a package: everything that a design needs to use it."""
 
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -24,7 +24,7 @@ REGISTERS = "registers.rdl"
 HEADER = "registers.h"
 PAGE = "registers.md"
 PERIOD = 10.0
-"""Of the clock in the constraints, in nanoseconds: a figure to begin with."""
+"""The clock period in the constraints, in nanoseconds: a value to start from."""
 
 
 def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str]:

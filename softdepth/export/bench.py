@@ -92,7 +92,7 @@ def bench(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[s
 
 
 def streams(config: Config, options: AxiOptions) -> list[dict[str, Any]]:
-    """What comes in: prefix and clock of each stream, and which bits of the words it takes."""
+    """The inputs: prefix and clock of each stream, and which bits of the words it takes."""
     if not options.two:
         return [{"prefix": "s_axis", "clock": "aclk", "low": 0, "width": pair_bits(config.pixel)}]
     size = config.pixel.size

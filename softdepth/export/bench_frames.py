@@ -38,7 +38,7 @@ class BenchFrames:
 def bench_frames(config: Config) -> BenchFrames:
     """Textured frames with true disparities, and their results with the registers as after reset.
 
-    Where there is no disparity, that is 0 in the model, and of ``INVALID`` after reset as well.
+    A missing disparity is 0 in the model, and so is ``INVALID`` after reset.
     """
     width = min(config.max_width, max(config.min_width, config.disparities) + EXTRA_WIDTH)
     height = min(config.max_height, config.min_height + EXTRA_HEIGHT)

@@ -26,7 +26,7 @@ def declarations(interface: Interface) -> str:
 
 
 def as_json(interface: Interface) -> str:
-    """All that the file's head says, and the configuration, for programs."""
+    """Everything that the file's head says, and the configuration, for programs."""
     config = interface.config
     frame = {
         "min_width": config.min_width,
@@ -61,7 +61,7 @@ def as_json(interface: Interface) -> str:
 
 
 def _needs(interface: Interface) -> dict[str, Any]:
-    """From which pixel the latency counts."""
+    """The pixel from which the latency counts."""
     config, whole = interface.config, interface.whole
     if whole is None:
         return {"reach": {"right": config.reach_right, "rows": config.reach_rows}}

@@ -1,4 +1,4 @@
-"""What someone who builds a core in has to know: ports, fields, codes, time, all from the core itself."""
+"""What you need to know to use a core: ports, fields, codes and timing, all taken from the core itself."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -102,7 +102,7 @@ _MEANINGS = {
     "status.early_starts": "starts of a frame before the end of the one before",
     "status.missing_starts": "times that pixels outside any frame were dropped",
 }
-"""Of every port and field. What is not listed cannot be exported: a stranger would not know what it is."""
+"""The meaning of every port and field. A core with others cannot be exported: nobody would know them."""
 
 
 def _port(source: Source, config: Config) -> Port:

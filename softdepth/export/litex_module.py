@@ -37,7 +37,7 @@ def streams_of(ports: Sequence[dict[str, Any]]) -> list[Stream]:
 
 
 def litex_class(name: str) -> str:
-    """What the module's class is called: with ``Core`` at its end, so that it is none of LiteX's own."""
+    """What the module's class is called: with ``Core`` at its end, so that it is not one of LiteX's own."""
     words = [part[:1].upper() + part[1:] for part in name.split("_")]
     return "".join(words if words[-1] == "Core" else [*words, "Core"])
 

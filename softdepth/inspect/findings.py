@@ -22,7 +22,7 @@ Code = Literal[
     "short",
     "needless",
 ]
-"""What can be found. ``needless`` is about the configuration's cost alone; all others spoil results."""
+"""All findings. ``needless`` only concerns the configuration's cost; all others spoil results."""
 
 BARE = 0.85
 """Share without texture above which a pair has nothing to match. Plain walls and furniture reach 0.76."""
@@ -103,13 +103,13 @@ def find(measured: Measurements, config: Config) -> list[Finding]:
         points = {"points": float(measured.points), "keypoints": float(measured.keypoints)}
         found.append(Finding("unmatched", points))
     if measured.points < FEWEST_POINTS:
-        return found  # what follows would rest on chance
+        return found  # anything more would be chance
     span, rows = measured.span, _rows(measured)
     ranges: list[Finding] = []
     if span is not None and exchanged(span):
         ranges = [_exchange(span, config)]
     elif span is not None and not any(one.code == "unrectified" for one in rows):
-        ranges = _range(span, config)  # what rectifying moves is not judged before
+        ranges = _range(span, config)  # rectifying moves these, so they are not judged before
     spoilt = [one for one in ranges if one.code != "needless"]
     thrifty = [one for one in ranges if one.code == "needless"]
     return [*found, *spoilt, *rows, *_light(measured), *thrifty]

@@ -1,4 +1,4 @@
-"""All that is measured of a pair, in one go."""
+"""Everything that is measured about a pair, in one go."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""A frame in metres: depth, what it is worth, and the points that it makes."""
+"""A frame in metres: depth, how much it can be trusted, and its points."""
 
 from dataclasses import dataclass
 

@@ -26,7 +26,7 @@ class Camera:
     lens : the model that they belong to.
     size : (width, height) in pixels, or None where the calibration leaves it out.
 
-    Raises `InputError` for a matrix that is none of a camera, and for coefficients that the lens cannot have.
+    Raises `InputError` for a matrix that no camera has, and for coefficients that the lens cannot have.
     """
 
     matrix: Matrix

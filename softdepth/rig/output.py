@@ -28,7 +28,7 @@ def write(folder: Path, rectifier: Rectifier, left: np.ndarray, right: np.ndarra
 def calibration(rectifier: Rectifier, width: int, height: int, comment: str = "") -> str:
     """The rectified pair's calibration as OpenCV's YAML, lengths in metres: R1, R2, P1, P2 and Q.
 
-    The rotations are unity: these are the rectified images' cameras, which nothing turns any more.
+    The rotations are identities, because these cameras are already those of the rectified images.
     A comment stands before them.
     """
     storage = cv2.FileStorage(".yml", cv2.FILE_STORAGE_WRITE | cv2.FILE_STORAGE_MEMORY)

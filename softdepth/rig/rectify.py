@@ -1,4 +1,4 @@
-"""Rectifying raw pairs: maps from rectified pixels to raw ones, and what they ask of a line buffer."""
+"""Rectifying raw pairs: maps from rectified pixels to raw ones, and how many lines they need to buffer."""
 
 from dataclasses import dataclass
 

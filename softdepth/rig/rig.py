@@ -12,7 +12,7 @@ from softdepth.spec.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Rectification:
-    """How both cameras' rays turn, and how they are projected then.
+    """How the rays of both cameras are turned, and how they are projected after that.
 
     Members
     -------
@@ -40,14 +40,14 @@ class Rectification:
 
     @property
     def between(self) -> tuple[Matrix, Matrix]:
-        """How the cameras stand to each other: a `Rig`'s rotation and translation."""
+        """How the cameras are placed to each other: a `Rig`'s rotation and translation."""
         left, right = self.rotations
         return right.T @ left, right.T @ np.array([-self.geometry.baseline, 0.0, 0.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Two cameras, and how they stand to each other.
+    """Two cameras, and how they are placed to each other.
 
     Members
     -------

@@ -21,7 +21,7 @@ TYPES = get_typestore(Stores.ROS2_HUMBLE)
 IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 INFO = "sensor_msgs/msg/CameraInfo"
 WAITING = 64
-"""Images that wait for their partner at the most, a topic each."""
+"""How many images of each topic wait for their partner at most."""
 
 
 @dataclass(frozen=True)

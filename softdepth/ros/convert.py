@@ -22,7 +22,7 @@ VERSION = 8
 
 @dataclass(frozen=True, eq=False)
 class Disparities:
-    """What a core says of a pair: H x W disparities in pixels, codes, and confidence where it has one."""
+    """What a core finds for a pair: H x W disparities in pixels, codes, and confidence where it has one."""
 
     disparity: NDArray[np.floating]
     code: Bytes
@@ -108,7 +108,7 @@ def convert(
     further : topics beside depth and points.
     progress : is called with the pairs done so far.
 
-    Raises `InputError` for what is wrong with the bag, for a target that exists, and where no rig has a pair.
+    Raises `InputError` for anything wrong with the bag, for a target that exists, and if no rig has a pair.
     """
     if target.exists():
         raise InputError(f"'{target}' exists already", "name a new folder: bags are not overwritten")

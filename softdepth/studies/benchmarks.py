@@ -116,7 +116,7 @@ def of_preset(config: Config, pair: StereoPair, rows: int) -> dict[str, float]:
 def of_sequence(config: Config, pair: StereoPair, frames: int, processes: Iterable[int]) -> dict[str, Any]:
     """Seconds that a sequence takes in so many processes.
 
-    Everything is in them that a user waits for: processes that begin, models, files.
+    They include everything that a user waits for: starting processes, models, files.
     """
     pair = pair.as_format(config.pixel)
     config = measure.as_large_as(pair, config)

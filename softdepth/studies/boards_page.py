@@ -1,7 +1,7 @@
 """``python -m softdepth.studies.boards_page OUT``: the default cores of all boards, in docs/flow.md.
 
-OUT holds a folder for each board, as `softdepth build` makes them. Of a board without one the row stays as it
-is, if it is of the board's own core.
+OUT holds a folder for each board, as `softdepth build` makes them. If a board has none, its row stays as it
+is, provided that it is for the board's own core.
 """
 
 import sys
@@ -50,20 +50,20 @@ def page(manifests: dict[Board, Manifest], kept: Mapping[str, str] | None = None
 
 
 def _core(board: Board, config: Config) -> str:
-    """The first cells of a board's row: which core its figures are of."""
+    """The first cells of a board's row: which core its figures belong to."""
     core = f"`{config.name}`, {config.disparities} disparities, lanes = {config.lanes}"
     return f"| `{board.name}` | {board.device} | {core} | {config.max_width} x {config.max_height} |"
 
 
 def _used(manifest: Manifest, resource: str) -> str:
-    """How many of a resource the core takes, and of how many."""
+    """How many of a resource the core takes, out of how many."""
     words = (word for word, name in WORDS.items() if name == resource and word in manifest.usage)
     count = manifest.usage.get(next(words, ""))
     return f"{count['used']:,} of {count['available']:,}" if count else "-"
 
 
 def kept_rows(table: str) -> dict[str, str]:
-    """Of a table the rows that are of boards' own cores, by the board's name."""
+    """The rows of a table that are for boards' own cores, by the board's name."""
     starts = {board.name: _core(board, board.config) for board in BOARDS.values()}
     return {
         name: row for row in table.splitlines() for name, start in starts.items() if row.startswith(start)
@@ -71,9 +71,9 @@ def kept_rows(table: str) -> dict[str, str]:
 
 
 def manifests(folder: Path, kept: Container[str] = ()) -> dict[Board, Manifest]:
-    """The manifest of each board's build, those left out that are not there and whose rows are `kept`.
+    """The manifest of each board's build, except for missing ones whose rows are `kept`.
 
-    Raises `InputError` if another is missing, or one is of another core.
+    Raises `InputError` if another is missing, or if one is for another core.
     """
     found: dict[Board, Manifest] = {}
     for board in BOARDS.values():

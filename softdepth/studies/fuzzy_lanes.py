@@ -1,7 +1,7 @@
 """``python -m softdepth.studies.fuzzy_lanes``: what a lane takes with each of the costs that are compared.
 
-Writes docs/fuzzy_lanes.json, from which ``softdepth evaluate --fuzzy`` tells it beside their accuracy. A lane
-is all that is there once per candidate evaluated in a clock, but for its part of the winners and of the
+Writes docs/fuzzy_lanes.json, from which ``softdepth evaluate --fuzzy`` shows it beside their accuracy. A lane
+is everything that exists once per candidate evaluated in a clock, without its part of the winners and of the
 right view's columns; the memory of its sums is not counted in LUTs.
 """
 
@@ -37,7 +37,7 @@ def measure(config: Config) -> LaneFigures:
 
 
 def measure_all(configs: Mapping[str, Config]) -> dict[str, LaneFigures]:
-    """The same of a core of each."""
+    """The same for a core of each."""
     found = {}
     for number, (name, config) in enumerate(configs.items(), start=1):
         screen.note(f"lane {number} of {len(configs)}: {name}")

@@ -29,12 +29,12 @@ DOCUMENT = Path("docs/inspect.md")
 PART = "inspections"
 CONFIG = Config.preset("paper")
 COVERED = 99
-"""Per cent of the known disparities that a range must hold to do."""
+"""Per cent of the known disparities that a range must hold to be enough."""
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A pair of uint8 RGB images, and the disparities that are known of it (float N, in pixels)."""
+    """A pair of uint8 RGB images, and its known disparities (float N, in pixels)."""
 
     name: str
     left: np.ndarray
@@ -44,7 +44,7 @@ class Scene:
 
 @dataclass
 class Tally:
-    """Of the pairs that are broken in one way: how many there are, are named for it, and are called more."""
+    """The pairs that are broken in one way: how many there are, how many are recognised, what else is found."""
 
     pairs: int = 0
     named: int = 0
@@ -52,7 +52,7 @@ class Tally:
 
     @property
     def more(self) -> list[tuple[str, int]]:
-        """What they are called more, and how often."""
+        """Other findings about them, and how often."""
         return Counter(self.called_more).most_common()
 
 
@@ -82,12 +82,12 @@ def known_sets() -> list[Scene]:
 
 
 def codes(found: Inspection) -> set[str]:
-    """What is wrong with a pair; a range that is larger than needed spoils nothing."""
+    """What is wrong with a pair; a range that is larger than needed does no harm."""
     return {finding.code for finding in found.findings} - {"needless"}
 
 
 def is_named(broken: Broken, found: Inspection, before: Inspection) -> bool:
-    """Whether the finding is the right one; of an offset, whether its rows are right as well."""
+    """Whether the finding is the right one; for an offset, whether its rows are right as well."""
     match = next((finding for finding in found.findings if finding.code == broken.code), None)
     if match is None or broken.offset is None:
         return match is not None
@@ -96,7 +96,7 @@ def is_named(broken: Broken, found: Inspection, before: Inspection) -> bool:
 
 
 def judge(broken: Broken, scene: Scene, before: Inspection) -> tuple[bool, set[str]]:
-    """Whether a broken pair is named for what it is, and what else is said that was not there before."""
+    """Whether a pair's fault is recognised, and which other findings are new."""
     config = CONFIG
     if broken.halved:
         most = int(np.percentile(scene.known, COVERED))
@@ -106,10 +106,10 @@ def judge(broken: Broken, scene: Scene, before: Inspection) -> tuple[bool, set[s
 
 
 def study(scenes: list[Scene], rows: tuple[int, ...] | None = None) -> str:
-    """The tables: what is said about the scenes as they are, and how often about broken ones."""
+    """The tables: findings about unchanged scenes, and how often broken ones are recognised."""
     before = {scene.name: inspect(scene.left, scene.right, CONFIG) for scene in scenes}
     tallies: dict[str, Tally] = {}
-    half = len(scenes) // 2  # neighbours by name may be one scene under two lights
+    half = len(scenes) // 2  # neighbours by name may be the same scene in different light
     for scene, other in zip(scenes, [*scenes[half:], *scenes[:half]], strict=True):
         screen.note(f"{scene.name} ...")
         for broken in variants(scene.left, scene.right, other.right, rows):

@@ -1,4 +1,4 @@
-"""How far the gateware's operators are from the paper's formulas, over every input there is."""
+"""How far the gateware's operators are from the paper's formulas, over every possible input."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

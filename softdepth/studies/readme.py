@@ -1,7 +1,7 @@
 """``python -m softdepth.studies.readme RESULTS``: put a run's figures and picture into README.md.
 
 The figures in the README are measured ones: they are written by this program from ``report.json`` and
-``docs/utilization.json``, between the markers, and by nobody's hand.
+``docs/utilization.json``, between the markers, never by hand.
 """
 
 import json
@@ -47,7 +47,7 @@ def renew(text: str, report: Report) -> str:
 def area(utilization: str) -> str:
     """The fastest core of each preset, with MEAN where it has an operator, among ``utilization.json``'s rows.
 
-    Of a row with several seeds it is the one with the median clock.
+    Where a row has several seeds, it is the one with the median clock.
     """
     from softdepth.studies.utilization import SUM, Row
     from softdepth.studies.utilization_page import median_rows

@@ -19,7 +19,7 @@ CONFIGS = (
     Config.preset("paper").override(["compensation.reading=top"]),
 )
 OPTIONS = AxiOptions(inputs="two", left=True)
-"""What cores have, each, all of whose registers are there."""
+"""The ports of cores that have every register."""
 
 
 def page() -> str:

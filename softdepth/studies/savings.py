@@ -2,8 +2,8 @@
 
 Renews docs/area.md, and writes docs/area.json for programs.
 
-A lane is all that is there once per candidate evaluated in a clock, but for its node of the argmin tree.
-Each saving is left out by itself, and all of them together.
+A lane is everything that exists once per candidate evaluated in a clock, without its node of the argmin tree.
+Each saving is left out alone, and all of them together.
 """
 
 import json

@@ -15,7 +15,7 @@ class SummedLane(wiring.Component):
 
     Members
     -------
-    Those of `LaneDifferences`, `join_columns` and `LaneSums` that come from without, and
+    Those of `LaneDifferences`, `join_columns` and `LaneSums` that come from outside, and
     o : the candidate's cost.
     """
 

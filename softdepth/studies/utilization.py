@@ -98,7 +98,7 @@ class Measurement(BaseModel):
 
 
 class Selection(BaseModel, frozen=True):
-    """What a row is asked for by, written ``PRESET/OPERATOR/LANES``, or with ``/DEVICE`` behind it.
+    """What names a row, written ``PRESET/OPERATOR/LANES``, optionally followed by ``/DEVICE``.
 
     Members
     -------
@@ -149,8 +149,8 @@ def measure(
 ) -> Measurement:
     """Synthesise, place and route a core and take its figures.
 
-    Of a netlist that was placed and routed before, with the same seed and options and by the same nextpnr,
-    the figures are taken from `known` or from the cache: that is where the hours go.
+    If a netlist was placed and routed before, with the same seed and options and by the same nextpnr, the
+    figures are taken from `known` or from the cache, because this is what takes hours.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ RECOMMENDED = (*_PAPERS, *_OPERATORS, *_ROBUST)
 """The rows of the table."""
 
 SEEDS = 3
-"""Of which the rows of `robust` are the median: how fast these are is promised."""
+"""The seeds whose median the rows of `robust` show, because their speed is promised."""
 
 QUICK = tuple(row for row in RECOMMENDED if row.lanes == 8 and row.operator == "mean")
 """The rows that take minutes, not hours."""
@@ -84,7 +84,7 @@ def load(folder: Path) -> list[Measurement]:
 def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Measurement]:
     """The known measurements, new ones of the same row and seed in their place, and the others behind.
 
-    Of a row that is measured again, other seeds stay only where nextpnr was given the same, but for the seed.
+    When a row is measured again, other seeds stay only if nextpnr was given the same except for the seed.
     """
     found = {(*_identity(each.row), each.seed): each for each in known}
     for each in new:
@@ -97,13 +97,13 @@ def merged(known: Sequence[Measurement], new: Sequence[Measurement]) -> list[Mea
 
 
 def medians(measurements: Sequence[Measurement]) -> list[tuple[Measurement, list[Measurement]]]:
-    """Of each row the measurement with the median clock, the lower one of two, and those of all its seeds."""
+    """For each row, the measurement with the median clock (the lower of two) and those of all its seeds."""
     rows = _alike_but_for_seeds(measurements, lambda each: each.row)
     return [(seeds[_middle(seeds)], sorted(seeds, key=lambda each: each.seed)) for seeds in rows]
 
 
 def median_rows(rows: Sequence[Row]) -> list[Row]:
-    """Of rows that differ in nothing but the seed, the one with the median clock, the lower one of two."""
+    """Of rows that differ only in the seed, the one with the median clock, the lower of two."""
     return [seeds[_middle(seeds)] for seeds in _alike_but_for_seeds(rows, lambda row: row)]
 
 
@@ -180,7 +180,7 @@ def _name(row: Row) -> str:
 
 
 def _alike_but_for_seeds(found: Iterable[T], row_of: Callable[[T], Row]) -> list[list[T]]:
-    """What differs in nothing but the seed, together, the slowest clock first."""
+    """Measurements that differ only in the seed, together, the slowest clock first."""
     groups: dict[tuple[str, int, int], list[T]] = {}
     for each in found:
         groups.setdefault(_identity(row_of(each)), []).append(each)

@@ -18,7 +18,7 @@ LENSES: dict[str, Lens] = {
 def read(left: Path, right: Path) -> Rig:
     """The rig of two files; raises `InputError` that names a key which is missing or wrong.
 
-    Their rectification gives the baseline, and with it how the cameras stand to each other.
+    Their rectification gives the baseline, and with it the cameras' placement.
     """
     (one, r1, p1), (two, r2, p2) = _camera(left), _camera(right)
     found = Rectification((r1, r2), (p1, p2))

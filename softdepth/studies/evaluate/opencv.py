@@ -1,8 +1,8 @@
 """OpenCV's matchers, brought to what ours give: a disparity in every pixel.
 
-Their left band without a result, as wide as the candidates, is avoided by padding both views on the left
-by so many pixels. What they then leave invalid is filled as our own results are. `with_post` gives their
-results to our filters instead.
+They leave a band on the left without results, as wide as the number of candidates. Padding both views on the
+left by that many pixels avoids it. Pixels that they then leave invalid are filled like those in our own
+results; `with_post` gives their results to our filters instead.
 """
 
 import cv2

@@ -15,7 +15,7 @@ INK, GRID = "#1f2328", "#d8dee4"
 COLOURS = ("#0969da", "#cf222e", "#1a7f37", "#8250df", "#9a6700")
 BINS = 16
 FEW = 200
-"""Pixels below which the error of a bin says nothing."""
+"""With fewer pixels than this, the error of a bin means nothing."""
 
 
 def confidence(evaluation: Evaluation) -> bytes:

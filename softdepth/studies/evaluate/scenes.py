@@ -55,8 +55,8 @@ def find(folders: Sequence[Path], leave_out: Sequence[str] = ()) -> list[Scene]:
 
     Raises
     ------
-    InputError : a folder that is missing or holds no scene, a name in `leave_out` that is none, or two
-        scenes of one name.
+    InputError : a folder that is missing or holds no scene, an unknown name in `leave_out`, or two
+        scenes of the same name.
     """
     scenes: dict[str, Scene] = {}
     for folder in folders:

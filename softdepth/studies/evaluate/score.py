@@ -41,7 +41,7 @@ class Sparsification(BaseModel):
     Members
     -------
     bad1 : per cent off by more than 1 px among those kept, as 0, 5, .. 95 % are left out.
-    best : the same, were the worst errors left out first.
+    best : the same if the worst errors were left out first.
     area, best_area : the mean of each, over the curve: what a confidence is judged by.
     pixels : how many measured pixels of known disparity there are.
     """
@@ -104,6 +104,6 @@ def by_confidence(
 
 
 def geometric_mean(ratios: Iterable[float]) -> float:
-    """Of positive numbers; what is 0 counts as a thousandth."""
+    """The geometric mean of positive numbers; 0 counts as a thousandth."""
     logs = [math.log(max(ratio, 1e-3)) for ratio in ratios]
     return math.exp(sum(logs) / len(logs))

@@ -112,7 +112,7 @@ def evaluate_scene(scene: Scene, plan: Plan) -> SceneWork:
 
 
 def everywhere(found: DisparityMap) -> np.ndarray:
-    """A map in pixels with a value everywhere: what has none is filled as `fill` fills it."""
+    """A map in pixels with a value everywhere; pixels without one are filled as by `fill`."""
     if not (found.given | (found.code == Validity.NOTHING)).all():
         lowest = int(found.disparity.min())  # negative where candidates are
         above = fill((found.disparity.astype(np.int32) - lowest).astype(np.uint16), found.valid)

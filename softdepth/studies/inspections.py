@@ -44,7 +44,7 @@ class Scene:
 
 @dataclass
 class Tally:
-    """The pairs that are broken in one way: how many there are, how many are recognised, what else is found."""
+    """The pairs that are broken in one way: how many there are, are recognised, and what else is found."""
 
     pairs: int = 0
     named: int = 0

@@ -1,11 +1,13 @@
 """Whether the right view agrees with the left."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal
+from amaranth.hdl import Module, ShapeLike, Signal
 from amaranth.lib import data, wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.signatures import TOLERANCE_BITS
 
 
@@ -15,6 +17,9 @@ class LeftRight(wiring.Component):
     The right winner of a slot's column is known ``disparities - 1`` slots later. So left results wait that
     long, and the right winners of as many columns are kept. A slot a clock.
 
+    A winner comes `lead` clocks before what else belongs to its slot, which is still computed then. In these
+    the right winner is addressed, read, and subtracted, a clock each.
+
     Parameters
     ----------
     result : what waits with a left winner.
@@ -22,15 +27,15 @@ class LeftRight(wiring.Component):
 
     Members
     -------
-    valid : a slot's results are there.
-    emits, winner, result : of the slot: whether it has a result, the left winner, and what belongs to it.
-    right : the right winner that leaves with the slot.
+    valid, winner, right : of a slot: the left winner, and the right winner that leaves with it.
+    emits, result : `lead` clocks later: whether it has a result, and what belongs to it.
     tolerance : as the parameter, which is its value where it is not driven. It may change between frames.
-    done : one slot's results are judged, `latency` clocks later, whether it has any or not.
+    done : one slot's results are judged, `lead` and `latency` clocks later, whether it has any or not.
     o_emits, agrees, o : it has, the views agree, and what belonged to it.
     """
 
-    latency = 2
+    lead = 4
+    latency = 1
 
     def __init__(self, disparities: int, result: ShapeLike, tolerance: int) -> None:
         self._disparities, self._result = disparities, result
@@ -38,10 +43,10 @@ class LeftRight(wiring.Component):
         super().__init__(
             {
                 "valid": In(1),
-                "emits": In(1),
                 "winner": In(winner),
-                "result": In(result),
                 "right": In(winner),
+                "emits": In(1),
+                "result": In(result),
                 "tolerance": In(TOLERANCE_BITS, init=tolerance),
                 "done": Out(1),
                 "o_emits": Out(1),
@@ -54,47 +59,64 @@ class LeftRight(wiring.Component):
         m = Module()
         disparities = self._disparities
         bits = (disparities - 1).bit_length()
-        waiting = data.StructLayout({"emits": 1, "winner": range(disparities), "result": self._result})
+        valid = travelling(m, self.valid, self.lead, "valid")
+
+        # Clock 1: the left winner. Clock 2: which right one it is held against. Clock 3: that. Clock 4: the
+        # difference. A right winner is written a clock late, so that the place of the oldest is read before.
+        m.submodules.winners = winners = Delay(range(disparities), disparities - 1)
+        m.d.comb += [winners.en.eq(self.valid), winners.i.eq(self.winner)]
+        m.submodules.rights = rights = Memory(shape=range(disparities), depth=1 << bits, init=[])
+        write, read = rights.write_port(), rights.read_port(domain="comb")
+        column = Signal(bits)
+        left = Signal(range(disparities), reset_less=True)
+        left_column = Signal(bits, reset_less=True)
+        new = Signal(range(disparities), reset_less=True)
+        with m.If(self.valid):
+            m.d.sync += [
+                column.eq(column + 1),
+                left.eq(winners.o),
+                left_column.eq(column),
+                new.eq(self.right),
+            ]
+        place = Signal(bits, reset_less=True)
+        right = Signal(range(disparities), reset_less=True)
+        left_late = delayed(m, left, 2, "left")
+        difference = Signal((right - left_late).shape(), reset_less=True)
+        m.d.comb += [
+            write.en.eq(valid[1]),
+            write.addr.eq(left_column),
+            write.data.eq(new),
+            read.addr.eq(place),
+        ]
+        m.d.sync += [
+            place.eq(left_column - left),
+            right.eq(read.data),
+            difference.eq(right - left_late),
+        ]
+        too_small = (difference + self.tolerance)[-1]
+        too_large = (self.tolerance - difference)[-1]
+
+        waiting = data.StructLayout({"emits": 1, "result": self._result})
         m.submodules.waits = waits = Delay(waiting, disparities - 1)
         m.d.comb += [
-            waits.en.eq(self.valid),
+            waits.en.eq(valid[self.lead]),
             waits.i.emits.eq(self.emits),
-            waits.i.winner.eq(self.winner),
             waits.i.result.eq(self.result),
         ]
         # What waits from before a reset is no result.
         slots = Signal(range(disparities))
         warm = Signal()
         m.d.comb += warm.eq(slots == disparities - 1)
-        with m.If(self.valid & ~warm):
+        with m.If(valid[self.lead] & ~warm):
             m.d.sync += slots.eq(slots + 1)
 
-        m.submodules.rights = rights = Memory(shape=range(disparities), depth=1 << bits, init=[])
-        write, read = rights.write_port(), rights.read_port(domain="comb")
-        column = Signal(bits)
-        with m.If(self.valid):
-            m.d.sync += column.eq(column + 1)
-        taken = Signal()
-        left = Signal(waiting, reset_less=True)
-        left_emits = Signal()
-        left_column = Signal(bits, reset_less=True)
-        m.d.comb += [
-            write.en.eq(self.valid),
-            write.addr.eq(column),
-            write.data.eq(self.right),
-            read.addr.eq(left_column - left.winner),
-        ]
-        m.d.sync += [taken.eq(self.valid), left_emits.eq(self.valid & waits.o.emits & warm)]
-        with m.If(self.valid):
-            m.d.sync += [left.eq(waits.o), left_column.eq(column)]
         done, emits, agrees = Signal(), Signal(), Signal(reset_less=True)
         result = Signal(self._result, reset_less=True)
-        difference = read.data - left.winner
         m.d.sync += [
-            done.eq(taken),
-            emits.eq(left_emits),
-            agrees.eq(Mux(difference[-1], -difference, difference) <= self.tolerance),
-            result.eq(left.result),
+            done.eq(valid[self.lead]),
+            emits.eq(valid[self.lead] & waits.o.emits & warm),
+            agrees.eq(~(too_small | too_large)),
+            result.eq(waits.o.result),
         ]
         m.d.comb += [
             self.done.eq(done),

@@ -170,6 +170,8 @@ class WholeWinners(wiring.Component):
         if post.check:
             m.submodules.right = right = RightWinner(lanes, steps, cost)
             m.submodules.check = check = LeftRight(config.disparities, found, post.tolerance)
+            compared = judged - LeftRight.lead
+            assert compared >= again
             m.d.comb += [
                 check.tolerance.eq(self.tolerance),
                 right.valid.eq(self.valid),
@@ -178,11 +180,11 @@ class WholeWinners(wiring.Component):
                 right.step.eq(self.step),
                 right.costs.eq(self.costs),
                 right.excluded.eq(self.excluded),
-                check.valid.eq(done),
+                check.valid.eq(last[compared]),
+                check.winner.eq(delayed(m, winner, compared - again, "checked")),
+                check.right.eq(self._late(m, right.winner, compared - right.latency, "right")),
                 check.emits.eq(emits),
-                check.winner.eq(delayed(m, winner_late, judged - late, "checked")),
                 check.result.eq(here),
-                check.right.eq(self._late(m, right.winner, judged - right.latency, "right")),
             ]
             done, emits, agrees, result = check.done, check.o_emits, check.agrees, check.o
             latency += LeftRight.latency

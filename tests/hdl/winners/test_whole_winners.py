@@ -197,20 +197,18 @@ def test_left_right(disparities: int, tolerance: int) -> None:
     left = rng.integers(0, disparities, slots)
     right = rng.integers(0, disparities, slots)  # by its own slot
     emits = rng.integers(0, 2, slots)
+    # What is not the slot's in its clock is something else.
     clocks = []
     for k in range(slots):
         late = right[k - disparities + 1] if k >= disparities - 1 else 0
-        clocks.append(
-            {
-                "valid": 1,
-                "emits": int(emits[k]),
-                "winner": int(left[k]),
-                "result": k,
-                "right": int(late),
-            }
-        )
-        clocks += [{"valid": 0}] * int(rng.integers(3))
-    clocks += [{"valid": 0}] * LeftRight.latency
+        clocks.append({"valid": 1, "winner": int(left[k]), "right": int(late)})
+        pause = int(rng.integers(3)) if k < slots // 2 else 0
+        clocks += [{"valid": 0, "winner": 1, "right": 2}] * pause
+    starts = [k for k, clock in enumerate(clocks) if clock["valid"]]
+    clocks += [{"valid": 0}] * (LeftRight.lead + LeftRight.latency)
+    clocks = [{**clock, "emits": 1, "result": 255} for clock in clocks]
+    for k, start in enumerate(starts):
+        clocks[start + LeftRight.lead] |= {"emits": int(emits[k]), "result": k}
     dut = LeftRight(disparities, 8, tolerance)
     seen = {name: observe(dut, clocks, name) for name in ("done", "o_emits", "agrees", "o")}
     assert sum(seen["done"]) == slots

@@ -1,6 +1,6 @@
 """A delay counted in enabled clocks."""
 
-from amaranth.hdl import Module, ShapeLike, Signal
+from amaranth.hdl import Module, Mux, ShapeLike, Signal
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -10,6 +10,13 @@ REGISTER_LIMIT = 16
 
 DEEP, FEW = 16, 4
 """Places of distributed RAM, and how many more are registers rather than memory of twice the depth."""
+
+SHORT = 2
+"""The depth up to which registers are no more than what reads a distributed RAM."""
+
+CHAINED = 4 * DEEP
+"""Delays up to this depth are a chain of distributed RAMs where registers are not to be had; longer ones may
+be block RAM."""
 
 
 class Delay(wiring.Component):
@@ -32,6 +39,7 @@ class Delay(wiring.Component):
             raise ValueError(f"depth is {depth}, but a delay cannot look ahead")
         self._shape = shape
         self._depth = depth
+        self._chained = registers is False and DEEP < depth <= CHAINED
         self._in_registers = depth <= REGISTER_LIMIT if registers is None else registers or depth < 2
         super().__init__({"en": In(1), "i": In(shape), "o": Out(shape)})
 
@@ -48,9 +56,17 @@ class Delay(wiring.Component):
             return m
 
         beyond = self._depth % DEEP
-        if self._depth > DEEP and beyond and beyond <= FEW:
-            m.submodules.ring = ring = Delay(self._shape, self._depth - beyond, registers=False)
-            m.submodules.rest = rest = Delay(self._shape, beyond)
+        if self._chained:
+            # Memory of twice the depth would take as many lookup tables, and multiplexers.
+            first = Delay(self._shape, DEEP, registers=False)
+            then = Delay(self._shape, self._depth - DEEP, registers=self._depth - DEEP <= SHORT)
+        elif self._depth > DEEP and beyond and beyond <= FEW:
+            first = Delay(self._shape, self._depth - beyond, registers=False)
+            then = Delay(self._shape, beyond)
+        else:
+            first = then = None
+        if first and then:
+            m.submodules.ring, m.submodules.rest = ring, rest = first, then
             m.d.comb += [
                 ring.en.eq(self.en),
                 rest.en.eq(self.en),
@@ -63,20 +79,17 @@ class Delay(wiring.Component):
         m.submodules.ring = ring = Memory(shape=self._shape, depth=self._depth, init=[])
         write = ring.write_port()
         read = ring.read_port()
-        position = Signal(range(self._depth))
-        following = Signal(range(self._depth))
+        # The place that is read is one ahead, so that the word is there when the next enabled clock comes.
+        # Both are registers: nothing stands before the memory.
+        written, shown = Signal(range(self._depth)), Signal(range(self._depth), init=1)
         m.d.comb += [
-            following.eq(position + 1),
             write.en.eq(self.en),
-            write.addr.eq(position),
+            write.addr.eq(written),
             write.data.eq(self.i),
-            # Read one place ahead, so that the word is there when the next enabled clock comes.
             read.en.eq(self.en),
-            read.addr.eq(following),
+            read.addr.eq(shown),
             self.o.eq(read.data),
         ]
-        with m.If(position == self._depth - 1):
-            m.d.comb += following.eq(0)
         with m.If(self.en):
-            m.d.sync += position.eq(following)
+            m.d.sync += [written.eq(shown), shown.eq(Mux(shown == self._depth - 1, 0, shown + 1))]
         return m

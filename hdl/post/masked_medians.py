@@ -12,7 +12,7 @@ from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.layout import is_measured, post_layout
 from softdepth.hdl.post.rank import LowerMedian
 from softdepth.hdl.post.slots import PostSlots
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.post.stage import delayed, waiting
 
 
 class MaskedMedians(wiring.Component):
@@ -68,6 +68,7 @@ class MaskedMedians(wiring.Component):
         reach, clocks = self._reach, self.clocks
         across = 2 * reach + 1
         members = self._layout.members
+        put = self._put()
         m.submodules.slots = slots = PostSlots(reach, self._max_width, clocks)
         payload = self.i.payload
         m.d.comb += [
@@ -84,7 +85,7 @@ class MaskedMedians(wiring.Component):
         kept_along = data.StructLayout({name: members[name] for name in ("code", "confidence")})
 
         # Clock 1: the pixel, compared with those before it in its row.
-        slot = travelling(m, slots.slot, 5 + clocks, "slot")
+        slot = travelling(m, slots.slot, put - 1 if self._shared else 5 + clocks, "slot")
         pixel = delayed(m, Cat(payload.value, payload.code, payload.confidence), 1, "pixel")
         value, along = pixel[: self._value_bits], pixel[self._value_bits :]
         colours = [delayed(m, colour, 1, "colour")]
@@ -103,8 +104,7 @@ class MaskedMedians(wiring.Component):
                 Cat(*likes).eq(Cat(found, *likes)),
                 Cat(Value.cast(p) for p in passing).eq(Cat(along, *(Value.cast(p) for p in passing))),
             ]
-        m.submodules.along_row = row = LowerMedian(across, self._value_bits)
-        m.d.comb += [Cat(Value.cast(row.i)).eq(Cat(*values)), row.keep.eq(self._kept(likes))]
+        row = Cat(*values, self._kept(likes))
 
         # The same pixel, compared with those above it.
         m.submodules.colours = above = RowStack([(compared, reach)], self._max_width, clocks)
@@ -122,14 +122,13 @@ class MaskedMedians(wiring.Component):
 
         # The row's median goes on top of its column, with what the pixel was compared to.
         centre = Cat(values[reach], Value.cast(passing[reach]))
-        ready = 2 + row.latency
-        put = self._put()
-        centre = delayed(m, centre, put - 2, "centre")
-        middle = delayed(m, row.o, put - ready, "middle")
+        centre = waiting(m, centre, put - 2, "centre")
+        median_of_row = Signal(self._value_bits)
+        middle = delayed(m, median_of_row, put - self._row_ready, "middle")
         if self._holes:
             passed = data.View(kept_along, centre[self._value_bits :])
             middle = Mux(is_measured(passed.code), middle, centre[: self._value_bits])
-        tag = Cat(delayed(m, downs[reach], put - compares - 1, "tag"), centre[self._value_bits :])
+        tag = Cat(waiting(m, downs[reach], put - compares - 1, "tag"), centre[self._value_bits :])
         m.submodules.rows = rows = RowStack(
             [(self._value_bits, 2 * reach), (len(tag), reach)], self._max_width, clocks
         )
@@ -148,38 +147,53 @@ class MaskedMedians(wiring.Component):
         wait = rows.latency - RowStack.ahead
         column = [delayed(m, middle, wait, "newest"), *rows.o["0"]]
         tags = [delayed(m, tag, wait, "newest_tag"), *rows.o["1"]]
-        m.submodules.down_column = last = LowerMedian(across, self._value_bits)
-        # A register on the way there: the tags are all in one word.
-        column = [delayed(m, c, 1, f"column_{k}") for k, c in enumerate(column)]
-        tags = [delayed(m, t, 1, f"tag_{k}") for k, t in enumerate(tags)]
-        m.d.comb += [
-            Cat(Value.cast(last.i)).eq(Cat(*column)),
-            last.keep.eq(self._kept([t[:reach] for t in tags])),
-        ]
+        column_there = put + wait
+        down_column = Cat(*column, self._kept([t[:reach] for t in tags]))
+
+        # A register before the column's median: the tags are all in one word.
+        size = across * (self._value_bits + 1)
+        if self._shared:
+            m.submodules.medians = last = LowerMedian(across, self._value_bits)
+            given = Signal(size, reset_less=True)
+            m.d.sync += given.eq(Mux(slot[2], row, down_column))
+            m.d.comb += median_of_row.eq(last.o)
+        else:
+            m.submodules.along_row = first = LowerMedian(across, self._value_bits)
+            m.submodules.down_column = last = LowerMedian(across, self._value_bits)
+            given = delayed(m, down_column, 1, "given")
+            m.d.comb += [
+                Cat(Value.cast(first.i), first.keep).eq(row),
+                median_of_row.eq(first.o),
+            ]
+        m.d.comb += Cat(Value.cast(last.i), last.keep).eq(given)
 
         latency = self._after_slot()
         layout = post_layout(self._value_bits, 0)
         m.submodules.queue = queue = ResultQueue(layout, -(-latency // clocks) + 1)
-        rest = data.View(kept_along, delayed(m, tags[reach][reach:], last.latency, "rest"))
+        rest = data.View(kept_along, waiting(m, tags[reach][reach:], latency - column_there, "rest"))
         result: Value = last.o
         if self._holes:
-            result = Mux(is_measured(rest.code), result, delayed(m, column[reach], last.latency, "whole"))
+            result = Mux(
+                is_measured(rest.code), result, waiting(m, column[reach], latency - column_there, "whole")
+            )
         fresh = Signal(init=1)
         puts = travelling(m, slots.emits, latency, "emits")[-1]
-        eof = delayed(m, slots.o_eof, latency, "eof")
+        markers = Cat(line_ends, waiting(m, Cat(slots.o_eof, slots.o_damaged), looks_up, "ends"))
+        eol, eof, damaged = waiting(m, markers, latency - looks_up, "markers")
         with m.If(puts):
             m.d.sync += fresh.eq(eof)
         m.d.comb += [
-            slots.credit.eq(queue.credit),
+            # With one median the row of a slot is not to come with the column of another.
+            slots.credit.eq(queue.credit & ~slot[-1] if self._shared else queue.credit),
             queue.promised.eq(slots.emits),
             queue.put.eq(puts),
             queue.result.value.eq(result),
             queue.result.code.eq(rest.code),
             queue.result.confidence.eq(rest.confidence),
             queue.result.sof.eq(fresh),
-            queue.result.eol.eq(delayed(m, slots.o_eol, latency, "eol")),
+            queue.result.eol.eq(eol),
             queue.result.eof.eq(eof),
-            queue.result.damaged.eq(delayed(m, slots.o_damaged, latency, "damaged")),
+            queue.result.damaged.eq(damaged),
         ]
         wiring.connect(m, queue.o, wiring.flipped(self.o))
         return m
@@ -189,9 +203,24 @@ class MaskedMedians(wiring.Component):
         """Clocks from a line's last pixel to when the line's last result can be in the queue."""
         return self._reach * self.clocks + self._after_slot()
 
+    @property
+    def _shared(self) -> bool:
+        """One median does both the rows and the columns."""
+        return self.clocks == 2
+
+    @property
+    def _row_ready(self) -> int:
+        """Clocks from a slot to its row's median."""
+        return 2 + self._shared + 2 * self._value_bits
+
     def _put(self) -> int:
-        """Clocks from a slot to when its row's median goes on top of its column."""
-        return max(2 + 2 * self._value_bits, 2 + RowStack.ahead + self.clocks - 1)
+        """Clocks from a slot to when its row's median goes on top of its column.
+
+        An even number where a median is shared, so that the column is there between two rows of slots that
+        follow each other every other clock.
+        """
+        put = max(self._row_ready, 2 + RowStack.ahead + self.clocks - 1)
+        return put + put % 2 if self._shared else put
 
     def _after_slot(self) -> int:
         return self._put() + (self.clocks - 1) + 1 + 2 * self._value_bits

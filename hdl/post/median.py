@@ -7,7 +7,7 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
 from softdepth.hdl.post.rank import LowerMedian
-from softdepth.hdl.post.stage import delayed, window_stage
+from softdepth.hdl.post.stage import waiting, window_stage
 
 
 class Median(wiring.Component):
@@ -69,8 +69,8 @@ class Median(wiring.Component):
             m.d.comb += median.keep.eq(kept)
 
         latency = self.latency
-        along = data.View(beside, delayed(m, Value.cast(window.companion), latency, "along"))
-        of_centre = data.View(element, delayed(m, Value.cast(centre), latency, "centre"))
+        along = data.View(beside, waiting(m, Value.cast(window.companion), latency, "along"))
+        of_centre = data.View(element, waiting(m, Value.cast(centre), latency, "centre"))
         results: dict[str, Value] = {name: along[name] for name in beside.members}
         results |= {name: of_centre[name] for name in within if name != "value"}
         results["value"] = median.o

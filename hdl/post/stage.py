@@ -7,6 +7,7 @@ from amaranth.lib import data
 from amaranth.lib.wiring import PureInterface
 
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.memory.window import MARKERS, Window
 
@@ -61,6 +62,14 @@ def delayed(m: Module, value: Value, clocks: int, name: str) -> Value:
         m.d.sync += register.eq(value)
         value = register
     return value
+
+
+def waiting(m: Module, value: Value, clocks: int, name: str) -> Value:
+    """``value`` after so many clocks, in distributed RAM: for many bits that wait for long."""
+    value = Value.cast(value)
+    m.submodules[f"waiting_{name}"] = wait = Delay(value.shape(), clocks, registers=False)
+    m.d.comb += [wait.en.eq(1), wait.i.eq(value)]
+    return wait.o
 
 
 def structured(layout: data.StructLayout, value: Value) -> data.View:

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 from amaranth.lib import data
 
-from softdepth.hdl.memory.delay import REGISTER_LIMIT, Delay
+from softdepth.hdl.memory.delay import CHAINED, DEEP, REGISTER_LIMIT, SHORT, Delay
 from tests.support.simulation import observe
 
 
@@ -15,9 +15,13 @@ from tests.support.simulation import observe
 )
 @pytest.mark.parametrize("rate", [1.0, 0.6])
 def test_shows_the_value_of_so_many_enabled_clocks_ago(depth: int, rate: float) -> None:
+    assert_late(Delay(9, depth), depth, rate)
+
+
+def assert_late(dut: Delay, depth: int, rate: float) -> None:
     random = Random(depth)
     clocks = [{"i": random.getrandbits(9), "en": random.random() < rate} for _ in range(5 * depth + 60)]
-    seen = observe(Delay(9, depth), clocks, "o")
+    seen = observe(dut, clocks, "o")
     entered: list[int] = []
     compared = 0
     for ports, o in zip(clocks, seen, strict=True):
@@ -28,6 +32,12 @@ def test_shows_the_value_of_so_many_enabled_clocks_ago(depth: int, rate: float) 
             assert o == entered[-1 - depth]
             compared += 1
     assert compared > depth + 10
+
+
+@pytest.mark.parametrize("depth", [1, 2, 9, DEEP, DEEP + 1, DEEP + SHORT + 1, 2 * DEEP, CHAINED, CHAINED + 1])
+@pytest.mark.parametrize("rate", [1.0, 0.6])
+def test_in_memory_whatever_the_depth(depth: int, rate: float) -> None:
+    assert_late(Delay(9, depth, registers=False), depth, rate)
 
 
 def test_a_depth_of_zero_is_a_wire_without_its_enable() -> None:

@@ -110,17 +110,20 @@ class LeftRight(wiring.Component):
         with m.If(valid[self.lead] & ~warm):
             m.d.sync += slots.eq(slots + 1)
 
-        done, emits, agrees = Signal(), Signal(), Signal(reset_less=True)
+        # What comes out of memory goes to registers alone, which may be the memory's own.
+        done, counts, agrees = Signal(), Signal(), Signal(reset_less=True)
+        emits = Signal(reset_less=True)
         result = Signal(self._result, reset_less=True)
         m.d.sync += [
             done.eq(valid[self.lead]),
-            emits.eq(valid[self.lead] & waits.o.emits & warm),
+            counts.eq(valid[self.lead] & warm),
+            emits.eq(waits.o.emits),
             agrees.eq(~(too_small | too_large)),
             result.eq(waits.o.result),
         ]
         m.d.comb += [
             self.done.eq(done),
-            self.o_emits.eq(emits),
+            self.o_emits.eq(emits & counts),
             self.agrees.eq(agrees),
             self.o.eq(result),
         ]

@@ -46,9 +46,14 @@ class Island(wiring.Component):
         layout = without_markers(self._layout)
         window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width, clocks=self.clocks)
         found = [element for row in window.window for element in row]
-        count = Signal(range(len(found) + 1), reset_less=True)
+        # In halves: counted together they would take most of a clock.
+        half = len(found) // 2
+        counts = []
+        for name, part in (("first", found[:half]), ("second", found[half:])):
+            counts.append(Signal(range(len(part) + 1), name=name, reset_less=True))
+            m.d.sync += counts[-1].eq(popcount(m, part))
         island = Signal(reset_less=True)
-        m.d.sync += [count.eq(popcount(m, found)), island.eq(count < self.least)]
+        m.d.sync += island.eq(counts[0] + counts[1] < self.least)
         result = data.View(layout, delayed(m, Value.cast(window.companion), self.latency, "result"))
         falls = is_measured(result.code) & island
         payload = self.i.payload

@@ -10,7 +10,7 @@ from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.memory.row_stack import RowStack
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.layout import is_measured, post_layout
-from softdepth.hdl.post.rank import LowerMedian
+from softdepth.hdl.post.rank import LowerMedian, median_latency
 from softdepth.hdl.post.slots import PostSlots
 from softdepth.hdl.post.stage import delayed, waiting
 
@@ -211,7 +211,7 @@ class MaskedMedians(wiring.Component):
     @property
     def _row_ready(self) -> int:
         """Clocks from a slot to its row's median."""
-        return 2 + self._shared + 2 * self._value_bits
+        return 2 + self._shared + median_latency(self._value_bits)
 
     def _put(self) -> int:
         """Clocks from a slot to when its row's median goes on top of its column.
@@ -223,7 +223,7 @@ class MaskedMedians(wiring.Component):
         return put + put % 2 if self._shared else put
 
     def _after_slot(self) -> int:
-        return self._put() + (self.clocks - 1) + 1 + 2 * self._value_bits
+        return self._put() + (self.clocks - 1) + 1 + median_latency(self._value_bits)
 
     def _alike(self, a: Value, b: Value) -> Value:
         bits = self._colour_bits

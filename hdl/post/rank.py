@@ -1,14 +1,20 @@
 """The lower median of some of many samples."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal, Value, unsigned
+from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.popcount import popcount
 from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.post.stage import delayed
 
 SOON = 4
 """Clocks that a bit waits in registers."""
+
+
+def median_latency(bits: int, *, all_kept: bool = False) -> int:
+    """Of a `LowerMedian`."""
+    return 2 * bits + (not all_kept)
 
 
 class LowerMedian(wiring.Component):
@@ -16,8 +22,9 @@ class LowerMedian(wiring.Component):
 
     Found bit by bit from the top: of the samples that may still be it, those whose bit is 0 are counted.
     If there are more than the rank, it is among them; else it is among the others, and the rank falls by
-    their number. No sample is ever moved. A clock counts and a clock decides, for each bit: a bit waits in
-    distributed RAM until its turn comes, where that is not soon.
+    their number. No sample is ever moved. A clock counts, either half by itself, and a clock adds and
+    decides, for each bit: a bit waits in distributed RAM until its turn comes, where that is not soon. Where
+    not all are kept, a clock more counts those that are.
 
     Parameters
     ----------
@@ -34,7 +41,7 @@ class LowerMedian(wiring.Component):
 
     def __init__(self, samples: int, bits: int, *, all_kept: bool = False) -> None:
         self._samples, self._bits, self._all_kept = samples, bits, all_kept
-        self.latency = 2 * bits
+        self.latency = median_latency(bits, all_kept=all_kept)
         ports = {"i": In(data.ArrayLayout(unsigned(bits), samples)), "o": Out(bits)}
         super().__init__(ports if all_kept else {**ports, "keep": In(samples)})
 
@@ -42,30 +49,29 @@ class LowerMedian(wiring.Component):
         m = Module()
         count_shape = range(self._samples + 1)
         may: Value = ~Signal(self._samples, name="none") if self._all_kept else self.keep
-        rank: Value | None = None
+        rank: Value = Const(self._samples - 1 >> 1, count_shape)
+        first = median_latency(0, all_kept=self._all_kept)
+        if first:
+            # The kept ones are counted before anything else.
+            parts = self._counted(m, may, "kept")
+            rank = Signal(count_shape, name="first_rank", reset_less=True)
+            may = delayed(m, may, 1, "kept")
+            m.d.sync += rank.eq((parts[0] + parts[1] - 1)[: len(rank)] >> 1)
         found: list[Value] = []
         for bit in reversed(range(self._bits)):
-            zeros, kept = (Signal(count_shape, name=f"{n}_{bit}", reset_less=True) for n in ("zeros", "kept"))
             held_may = Signal(self._samples, name=f"held_{bit}", reset_less=True)
-            turn = 2 * (self._bits - 1 - bit)
+            turn = first + 2 * (self._bits - 1 - bit)
             m.submodules[f"wait_{bit}"] = wait = Delay(self._samples, turn, registers=turn <= SOON)
             m.d.comb += [wait.en.eq(1), wait.i.eq(Cat(self.i[k][bit] for k in range(self._samples)))]
             tops = wait.o
             held_tops = Signal(self._samples, name=f"tops_{bit}", reset_less=True)
-            m.d.sync += [
-                zeros.eq(popcount(m, may & ~tops)),
-                held_may.eq(may),
-                held_tops.eq(tops),
-            ]
-            if rank is None:
-                if self._all_kept:
-                    m.d.comb += kept.eq(self._samples)
-                else:
-                    m.d.sync += kept.eq(popcount(m, may))
-                held_rank: Value = (kept - 1)[: len(kept)] >> 1
-            else:
-                held_rank = Signal(count_shape, name=f"held_rank_{bit}", reset_less=True)
-                m.d.sync += held_rank.eq(rank)
+            parts = self._counted(m, may & ~tops, f"zeros_{bit}")
+            zeros = Signal(count_shape, name=f"zeros_{bit}")
+            m.d.comb += zeros.eq(parts[0] + parts[1])
+            m.d.sync += [held_may.eq(may), held_tops.eq(tops)]
+            held_rank: Value = rank
+            if found:
+                held_rank = delayed(m, rank, 1, f"held_rank_{bit}")
             is_one = Signal(name=f"is_one_{bit}")
             m.d.comb += is_one.eq(~(held_rank - zeros)[-1])  # the rank is not below the zeros
             below = Signal(count_shape, name=f"rank_{bit}", reset_less=True)
@@ -83,3 +89,13 @@ class LowerMedian(wiring.Component):
             may = following_may
         m.d.comb += self.o.eq(Cat(*found))
         return m
+
+    def _counted(self, m: Module, bits: Value, name: str) -> list[Value]:
+        """How many of a set's bits are set, a clock later: two numbers that are still to be added."""
+        half = self._samples // 2
+        counts: list[Value] = []
+        for part in (bits[:half], bits[half:]):
+            count = Signal(range(len(part) + 1), name=f"{name}_{len(counts)}", reset_less=True)
+            m.d.sync += count.eq(popcount(m, part))
+            counts.append(count)
+        return counts

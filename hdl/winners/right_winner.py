@@ -60,17 +60,8 @@ class RightWinner(wiring.Component):
         none = (1 << self._cost.size) - 1
         entering: Value = Const(none, best.size)
         for lane in range(self._lanes):
-            ring = [Signal(best, name=f"best_{lane}_{k}", reset_less=True) for k in range(steps)]
-            far = Signal(best, name=f"far_{lane}", reset_less=True)  # what the far end was a slot before
-            before = Signal(best, name=f"before_{lane}")
-            if steps == 1:
-                m.d.comb += before.eq(entering)
-                entering = ring[0]
-            else:
-                m.d.comb += before.eq(Mux(self.last, entering, ring[-2]))
-                with m.If(self.first):
-                    m.d.sync += far.eq(ring[-1])
-                entering = far
+            # The best before a step's candidate: a register, so that no choice is made before it is compared.
+            before = Signal(best, name=f"before_{lane}", reset_less=True)
             now = Signal(best, name=f"now_{lane}")
             better = Signal(name=f"better_{lane}")
             m.d.comb += better.eq(~self.excluded[lane] & (self.costs[lane].num - before.cost.num)[-1])
@@ -78,8 +69,26 @@ class RightWinner(wiring.Component):
                 Value.cast(now.cost).eq(Mux(better, Value.cast(self.costs[lane]), Value.cast(before.cost))),
                 now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),
             ]
+            if steps == 1:
+                m.d.comb += before.eq(entering)
+                found = Signal(best, name=f"found_{lane}", reset_less=True)
+                with m.If(self.valid):
+                    m.d.sync += found.eq(now)
+                entering = found
+                continue
+            # What steps found until it is their place's turn again, and what the far end was: this slot, and
+            # where it is wanted later than in the first step, the slot before.
+            waits = [Signal(best, name=f"waits_{lane}_{k}", reset_less=True) for k in range(steps - 2)]
+            far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(min(steps - 1, 2))]
+            line = [now, *waits]
             with m.If(self.valid):
-                m.d.sync += [ring[0].eq(now), *(ring[k].eq(ring[k - 1]) for k in range(1, steps))]
+                m.d.sync += [
+                    before.eq(Mux(self.step == steps - 2, entering, Value.cast(line[-1]))),
+                    *(late.eq(early) for early, late in zip(line, waits, strict=False)),
+                ]
+            with m.If(self.first):
+                m.d.sync += [late.eq(early) for early, late in zip([now, *far], far, strict=False)]
+            entering = Value.cast(far[-1])
         winner = Signal.like(self.winner, reset_less=True)
         with m.If(self.first):
             m.d.sync += winner.eq(now.index)

@@ -178,7 +178,8 @@ class MaskedMedians(wiring.Component):
             )
         fresh = Signal(init=1)
         puts = travelling(m, slots.emits, latency, "emits")[-1]
-        markers = Cat(line_ends, waiting(m, Cat(slots.o_eof, slots.o_damaged), looks_up, "ends"))
+        ends = delayed(m, Cat(slots.o_eof, slots.o_damaged), 1, "ends")
+        markers = Cat(line_ends, waiting(m, ends, looks_up - 1, "ends"))
         eol, eof, damaged = waiting(m, markers, latency - looks_up, "markers")
         with m.If(puts):
             m.d.sync += fresh.eq(eof)

@@ -39,6 +39,7 @@ class Delay(wiring.Component):
             raise ValueError(f"depth is {depth}, but a delay cannot look ahead")
         self._shape = shape
         self._depth = depth
+        self._in_ram = registers is False
         self._chained = registers is False and DEEP < depth <= CHAINED
         self._in_registers = depth <= REGISTER_LIMIT if registers is None else registers or depth < 2
         super().__init__({"en": In(1), "i": In(shape), "o": Out(shape)})
@@ -80,8 +81,9 @@ class Delay(wiring.Component):
         write = ring.write_port()
         read = ring.read_port()
         # The place that is read is one ahead, so that the word is there when the next enabled clock comes.
-        # Both are registers: nothing stands before the memory.
         written, shown = Signal(range(self._depth)), Signal(range(self._depth), init=1)
+        last = shown if self._in_ram else written
+        following = Mux(last == self._depth - 1, 0, last + 1)
         m.d.comb += [
             write.en.eq(self.en),
             write.addr.eq(written),
@@ -91,5 +93,11 @@ class Delay(wiring.Component):
             self.o.eq(read.data),
         ]
         with m.If(self.en):
-            m.d.sync += [written.eq(shown), shown.eq(Mux(shown == self._depth - 1, 0, shown + 1))]
+            m.d.sync += written.eq(shown)
+        if self._in_ram:
+            # Nothing stands before a distributed RAM, whose word goes to registers in the same clock.
+            with m.If(self.en):
+                m.d.sync += shown.eq(following)
+        else:
+            m.d.comb += shown.eq(following)
         return m

@@ -101,7 +101,7 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     described = TallWindow.latency_of(clocks_of(steps)) + descriptors_latency(
         plan(config).descriptors.values()
     )
-    described += QUEUE_LATENCY
+    described += QUEUE_LATENCY + WholeCosts.waits
     judged = tree.latency + sequence.latency + steps
     judged += Neighbours(config.lanes, steps, costs.layout, runner_up=post.confidence).latency
     judged += number_latency(*config.number_range) if is_fraction(costs.layout) else 0

@@ -22,6 +22,7 @@ from softdepth.hdl.costs.whole_lane import (
     supports_layout,
 )
 from softdepth.hdl.front.exclusion import Exclusion
+from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.slots import Slots
 from softdepth.hdl.memory.delay import Delay
@@ -85,6 +86,9 @@ class WholeCosts(wiring.Component):
             }
         )
 
+    waits = ItemQueue.latency
+    """Clocks from a pixel's arrival to its slot's beginning, at least."""
+
     @property
     def latency(self) -> int:
         """Clocks from a slot's beginning to its first costs."""
@@ -109,10 +113,13 @@ class WholeCosts(wiring.Component):
             drain=self._drain,
             first=config.reach_left,
         )
+        # The slots' decision is late in its clock, and does not go on from here to a wide queue's output.
+        m.submodules.places = places = ItemQueue(self._descriptors)
+        wiring.connect(m, wiring.flipped(self.i), places.i)
         m.d.comb += [
-            slots.i.valid.eq(self.i.valid),
-            self.i.ready.eq(slots.i.ready),
-            slots.i.payload.as_value().eq(self.i.payload.as_value()),
+            slots.i.valid.eq(places.o.valid),
+            places.o.ready.eq(slots.i.ready),
+            slots.i.payload.as_value().eq(places.o.payload.as_value()),
             slots.credit.eq(self.credit),
             self.begins.eq(slots.begins),
         ]

@@ -22,6 +22,8 @@ class ResultQueue(wiring.Component):
     ----------
     shape : of a result.
     latency : clocks from a promise to its `put`.
+    unseen : results that may be begun before their promises are seen here, where the way is far: there is
+        credit as long as there are places for these too.
 
     Members
     -------
@@ -32,9 +34,9 @@ class ResultQueue(wiring.Component):
     o : the results, in order.
     """
 
-    def __init__(self, shape: ShapeLike, latency: int) -> None:
-        self._shape = shape
-        self._depth = latency + QUEUE_LATENCY + 2
+    def __init__(self, shape: ShapeLike, latency: int, *, unseen: int = 0) -> None:
+        self._shape, self._unseen = shape, unseen
+        self._depth = latency + QUEUE_LATENCY + 2 + unseen
         super().__init__(
             {
                 "credit": Out(1),
@@ -90,6 +92,6 @@ class ResultQueue(wiring.Component):
         m.d.sync += [
             back.eq(self.dropped + taken),
             left.eq(Mux(self.promised, counted - 1, counted)),
-            credit.eq(Mux(self.promised, counted > 1, counted != 0)),
+            credit.eq(Mux(self.promised, counted > self._unseen + 1, counted > self._unseen)),
         ]
         return m

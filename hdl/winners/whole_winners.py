@@ -24,6 +24,9 @@ from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
 
+FAR = 2
+"""Clocks of the way from the credit to the slots and of what begins back."""
+
 KEPT_TOGETHER = 8
 """Lanes whose costs wait in a memory of their own, with a counter near them."""
 
@@ -189,14 +192,18 @@ class WholeWinners(wiring.Component):
             done, emits, agrees, result = check.done, check.o_emits, check.agrees, check.o
             latency += LeftRight.latency
 
-        m.submodules.queue = queue = ResultQueue(self.layout, -(-latency // steps) + 2)
+        # The slots are far from here: credit and what begins take a clock each for their way.
+        credit, begun = Signal(), Signal()
+        unseen = -(-FAR // steps)
+        m.submodules.queue = queue = ResultQueue(self.layout, -(-latency // steps) + 2, unseen=unseen)
+        m.d.sync += [credit.eq(queue.credit), begun.eq(self.begins)]
         border = Value.cast(result.tags.border).any()
         kept_result: Value = (agrees if agrees is not None else Const(1, 1)) & ~border
         code = Mux(result.tags.full, Validity.FULL, Validity.PARTIAL)
         lost = Mux(border, Validity.BORDER, Validity.INCONSISTENT)
         m.d.comb += [
-            self.credit.eq(queue.credit),
-            queue.promised.eq(self.begins),
+            self.credit.eq(credit),
+            queue.promised.eq(begun),
             queue.put.eq(emits),
             queue.dropped.eq(done & ~emits),
             queue.result.value.eq(Mux(kept_result, result.value, 0)),

@@ -128,24 +128,28 @@ def test_items_are_neither_lost_nor_doubled(tmp_path: Path) -> None:
 
 
 class Promised(Component):
-    """`ResultQueue` behind a pipeline: what is promised and not dropped leaves, all of it and in order."""
+    """`ResultQueue` behind a pipeline: what is promised and not dropped leaves, all of it and in order.
+
+    If it is ``far``, credit and promises take a clock each for their way.
+    """
 
     valid: In(1)
     drop: In(1)
     ready: In(1)
 
-    def __init__(self, wrong: bool) -> None:
-        self._wrong = wrong
+    def __init__(self, wrong: bool = False, *, far: bool = False, unseen: int = 0) -> None:
+        self._wrong, self._far, self._unseen = wrong, far, unseen
         super().__init__()
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.queue = queue = ResultQueue(data.StructLayout({"word": 5}), LATENCY)
+        queue = ResultQueue(data.StructLayout({"word": 5}), LATENCY, unseen=self._unseen)
+        m.submodules.queue = queue
         promised, due = Signal(), Signal(LATENCY)
         sent, got = Signal(5), Signal(5)
         m.d.comb += [
-            promised.eq(self.valid & (True if self._wrong else queue.credit)),
-            queue.promised.eq(promised),
+            promised.eq(self.valid & (True if self._wrong else late(m, queue.credit, self._far, "credit"))),
+            queue.promised.eq(late(m, promised, self._far, "promised")),
             queue.put.eq(due[-1] & ~self.drop),
             queue.dropped.eq(due[-1] & self.drop),
             queue.result.word.eq(sent),
@@ -158,13 +162,15 @@ class Promised(Component):
             m.d.comb += Assert((queue.o.payload.word == got) & (sent != got))
             with m.If(self.ready):
                 m.d.sync += got.eq(got + 1)
-        m.d.comb += Assert((sent - got)[:5] <= LATENCY + QUEUE_LATENCY + 2)
+        m.d.comb += Assert((sent - got)[:5] <= LATENCY + QUEUE_LATENCY + 2 + self._unseen)
         return m
 
 
 def test_promised_results_have_their_places(tmp_path: Path) -> None:
-    assert proof(Promised(wrong=False), tmp_path) != "refuted"
+    assert proof(Promised(), tmp_path) != "refuted"
     assert proof(Promised(wrong=True), tmp_path) == "refuted"
+    assert proof(Promised(far=True, unseen=2), tmp_path) != "refuted"
+    assert proof(Promised(far=True, unseen=0), tmp_path) == "refuted"
 
 
 class Remembering(Component):

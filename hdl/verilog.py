@@ -66,7 +66,7 @@ def to_verilog(design: Config | Component, name: str = TOP) -> str:
 
 
 def _written(rtlil: str, top: str) -> str:
-    """RTLIL as Verilog, all modules in use; raises `ToolError` where yosys fails."""
+    """RTLIL as Verilog, all modules in use; raises `ToolError` if yosys fails."""
     done = subprocess.run(
         _YOSYS, input=_SCRIPT.format(rtlil=rtlil, top=top), capture_output=True, text=True, check=False
     )

@@ -39,7 +39,7 @@ class SerialCore(wiring.Component):
     active : a frame is under way.
     fault : the core broke its own rules.
 
-    Raises `ConfigError` where the longest line does not fit into a packet.
+    Raises `ConfigError` if the longest line does not fit into a packet.
     """
 
     def __init__(self, config: Config, divisor: int, hello: bytes) -> None:

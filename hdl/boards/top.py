@@ -20,7 +20,7 @@ MAX_RATE_ERROR = 0.015
 
 
 def line_divisor(board: Board) -> int:
-    """Clocks per bit of the serial line; raises `ConfigError` where the clock cannot make its rate."""
+    """Clocks per bit of the serial line; raises `ConfigError` if the clock cannot make its rate."""
     divisor = round(board.core_hz / board.baud)
     if divisor < MIN_DIVISOR or abs(board.core_hz / divisor / board.baud - 1) > MAX_RATE_ERROR:
         raise ConfigError(
@@ -47,7 +47,7 @@ class BoardTop(wiring.Component):
     button : resets the core, on boards that have one.
     led : see `softdepth.hdl.boards.wiring`.
 
-    Further pins are held high where the board wants that. Raises `ConfigError` where the part cannot make
+    Further pins are held high where the board wants that. Raises `ConfigError` if the part cannot make
     the core's clock, or the clock not the serial line's rate.
     """
 

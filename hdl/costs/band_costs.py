@@ -19,7 +19,7 @@ from softdepth.spec.config import Config
 
 
 def band_tags(config: Config) -> data.StructLayout:
-    """Of a result: that it leaves with this clock, and the sequencer's `tags_layout`."""
+    """What the tags of a result say: that it leaves in this clock, and the sequencer's `tags_layout`."""
     return data.StructLayout({"emits": 1, "result": tags_layout()})
 
 
@@ -31,8 +31,8 @@ class BandCosts(wiring.Component):
         i > sequencer > line buffer > right columns > lanes > costs
 
     ``steps`` clocks a pixel, without a pause between lines or frames. The pipeline never stalls: a pixel is
-    admitted where there is credit. Those whose support leaves the image have results without costs, which
-    leave with other pixels' steps, or by themselves.
+    admitted if there is credit. Pixels whose support leaves the image have results without costs, which
+    leave with the steps of other pixels, or on their own.
 
     Members
     -------
@@ -68,9 +68,9 @@ class BandCosts(wiring.Component):
             self.tags.result.eq(sequencer.tags),
         ]
 
-        # Clocks after the one in which the sequencer takes the pixel: what it says comes at 1.
+        # Clocks are counted from the one in which the sequencer takes the pixel; its outputs come at 1.
         column_time, cost_time = LineBuffer.latency, self.latency
-        # Bits that say what happens are reset; what they speak of is not.
+        # Control bits are reset; the data that they qualify is not.
         occurs: dict[str, list[Signal]] = {}
         first = Signal()
         m.d.comb += first.eq(sequencer.valid & sequencer.first)
@@ -88,7 +88,7 @@ class BandCosts(wiring.Component):
             columns.column.eq(right),
         ]
 
-        # Where the step is in the line, all candidates counted: told as early as the lanes look it up.
+        # Where the step is in the line, counting all candidates, as early as the lanes look it up.
         looked_up = column_time - self._lanes[0].look_ahead
         place = Signal(range(config.places), reset_less=True)
         with m.If(occurs["valid"][looked_up - 1]):
@@ -144,8 +144,8 @@ class BandCosts(wiring.Component):
     def _moved(self, m: Module, load: Signal, item: data.View) -> tuple[Value, Value]:
         """Left and right pixel, one of them late by `Config.min_disparity`: candidates then begin at 0.
 
-        The late one's columns are those of the line, but for its first ones, which are the line's before:
-        pixels that see them have no result.
+        The late one's columns are those of the line, except for the first ones, which are those of the line
+        before. Pixels that see them have no result.
         """
         shift = self._config.min_disparity
         m.submodules.late = late = Delay(self._config.pixel.size, abs(shift))

@@ -1,4 +1,4 @@
-"""What a criterion compares that is summed down columns, and over which rows and columns it sums."""
+"""What a criterion that is summed down columns compares, and over which rows and columns it sums."""
 
 import dataclasses
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from softdepth.spec.criteria import (
 from softdepth.spec.registry import Registry
 
 LIKE_BITS = 8
-"""Bits of the values in which a configuration says what colours are alike."""
+"""Bits of the values in which a configuration says which colours are alike."""
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,8 @@ class Comparison:
     dx : columns from the pixel to the window's centre, to the right.
     spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
     own_shift : bits by which the value is more than the sum.
-    limit : of its differences, where that may be told (`softdepth.hdl.thresholds`).
-    running : sums down the columns are kept, of which a row enters and one leaves.
+    limit : of its differences, if a register may set it (`softdepth.hdl.thresholds`).
+    running : sums down the columns are kept; one row enters and one leaves.
     lags : rows above the newest of those that are compared, ascending: of a running sum the one that enters
         and the one that leaves, else all that are summed; by `plan`.
     """
@@ -84,7 +84,7 @@ class Comparison:
 
     @property
     def column(self) -> tuple[Any, ...]:
-        """What its columns are made of: criteria that agree in this share their sums."""
+        """What its columns are made of; criteria with the same share their sums."""
         told = self.limit is not None
         return self.field, self.lags, self.running, self.block, self.parameters, told
 
@@ -138,7 +138,7 @@ def _of_gradient(cap: int, truncation: int, neutral: int, **window: Any) -> Comp
 
 
 def _sad(criterion: Sad, pixel: PixelFormat) -> Comparison:
-    """What lies outside, and a candidate without a partner, is nothing that a result depends on."""
+    """No result depends on what lies outside, nor on candidates without a partner."""
     window: dict[str, Any] = {"rows": criterion.window, "reach": criterion.radius, "dx": criterion.dx}
     if criterion.source == "gradient":
         return _of_gradient(GRADIENT_CAP, 2 * GRADIENT_CAP, 0, **window)
@@ -157,7 +157,7 @@ COMPARISONS.register("sad", _sad)
 
 
 FEW_COLUMNS = 5
-"""Along a row, so many columns are added anew: a sum that runs on takes two additions, and a memory."""
+"""Along a row, up to this many columns are added anew; a running sum takes two additions and a memory."""
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ class Plan:
 
     @property
     def rows(self) -> dict[str, tuple[int, ...]]:
-        """Of each descriptor, how many rows above the newest it is wanted, ascending."""
+        """For each descriptor, how many rows above the newest it is wanted, ascending."""
         found: dict[str, set[int]] = {}
         for c in self.comparisons:
             found.setdefault(c.field, set()).update(c.lags)
@@ -202,14 +202,14 @@ class Plan:
 
 
 MINIMUM_RIGHT = 4
-"""Slots that a line has beyond its pixels at least: running sums look a place up before the row above is done
-where lines are shorter."""
+"""The least number of slots that a line has beyond its pixels. In shorter lines, running sums would look a
+place up before the row above is done."""
 
 
 def by_windows(config: Config) -> bool:
-    """Whether a core compares windows of pixels as they are: of colours, with nothing behind the winners.
+    """Whether a core compares windows of pixels as they are: windows of colours, nothing behind the winners.
 
-    It needs a support of more than one row.
+    Their support has more than one row.
     """
     return (
         not config.post.any

@@ -31,16 +31,17 @@ from softdepth.hdl.post.stage import delayed
 from softdepth.spec.config import Config
 
 COLUMN_TIME = 2
-"""Clocks from a slot's first step to its columns: they go to all lanes from afar, and a running sum is looked
-up before its columns are compared."""
+"""Clocks from a slot's first step to its columns, which come to all lanes from afar; and a running sum is
+looked up before its columns are compared."""
 
 DEEP_RING = 3
-"""Places from which on a lane's ring of right columns is distributed RAM: flip-flops run out before."""
+"""From this many places on, a lane's ring of right columns is distributed RAM, because flip-flops run out
+first."""
 
 
 def tags_layout(config: Config) -> data.StructLayout:
-    """Of the pixel that a slot judges: whether there is one, in the border band, with all its candidates; and
-    its colour."""
+    """About the pixel that a slot judges: whether there is one, whether it is in the border band and has all
+    its candidates; and its colour."""
     return data.StructLayout(
         {
             "emits": 1,
@@ -188,7 +189,7 @@ class WholeCosts(wiring.Component):
         centre = self._centre(m, colour, first[column_time])
         rows_inside = Signal(inside_layout(plan_))
         for running, lag in sorted({(c.running, lag) for c in plan_.columns for lag in c.lags}):
-            # Where a sum runs on it is held back beyond the frame's columns, and not its differences.
+            # Beyond the frame's columns a running sum itself is held back, and not its differences.
             within = rows_of[lag] if running else rows_of[lag] & column_inside
             m.d.comb += rows_inside[inside_of(lag, running)].eq(within)
         differences = []

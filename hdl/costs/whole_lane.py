@@ -1,4 +1,4 @@
-"""The two halves of a lane whose criteria are summed down columns: before the column sums and behind them."""
+"""The two halves of a lane whose criteria are summed down columns: before the column sums and after them."""
 
 from amaranth.hdl import Module, Value, unsigned
 from amaranth.lib import data, wiring
@@ -144,7 +144,7 @@ class LaneSums(wiring.Component):
         )
 
     def _part(self, c: Comparison) -> tuple[SupportMean | RowBox | RowSum, int, int]:
-        """What makes a criterion of its columns, the slots that they wait, and bits to shift it by."""
+        """What makes its columns a criterion, how many slots they wait, and the bits to shift it by."""
         steps, wait = self._config.steps, self._plan.right - c.ahead
         if c.taps:
             return SupportMean(c.column_maximum, c.taps, c.spacing, steps), wait, 0

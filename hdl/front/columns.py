@@ -8,7 +8,8 @@ from softdepth.spec.config import Config
 
 
 class Columns(wiring.Component):
-    """Knows of the next pixel's column what the guard decides by: all but ``x`` a pixel ahead, in registers.
+    """Tells the guard what it needs to know about the next pixel's column; all but ``x`` a pixel ahead, in
+    registers.
 
     A frame's first line gives the width.
 

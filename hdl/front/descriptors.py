@@ -1,4 +1,4 @@
-"""What is known of each view's pixels before they are compared."""
+"""What is computed for each view's pixels before they are compared."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -36,12 +36,11 @@ def descriptors_latency(descriptors: Iterable[Descriptor]) -> int:
 class Descriptors(wiring.Component):
     """Turns a raster of pixel pairs into one of descriptors of both views, the frame's edges repeated.
 
-    Each pixel comes with descriptors of pixels above it. They are computed from the lumas of the rows
-    around those, as a luma remembered takes a third of the memory of a census, and of one and a gradient
-    a quarter; colours are remembered where they are compared. Behind a frame's lines there come ``after``
-    more, for what is above them.
-    A pixel every ``clocks`` clocks, but for twice the window's reach a line, and the reach and ``after`` in
-    lines a frame.
+    Each pixel comes with descriptors of pixels above it. They are computed from the lumas of the rows around
+    those, as a luma remembered takes a third of the memory of a census, and of one and a gradient a quarter;
+    colours are remembered where they are compared. After a frame's lines there are ``after`` more, for the
+    pixels above them. One pixel every ``clocks`` clocks, except for twice the window's reach per line, and
+    reach plus ``after`` lines per frame.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ class FaultCounters(wiring.Component):
     Members
     -------
     short_lines, long_lines, early_starts, missing_starts : such a fault is met in this clock.
-    again : what is reported in this clock will be again, and counts then.
+    again : what is reported in this clock will be reported again, and counts then.
     clear : the counters begin at 0.
     met : the faults of the clock before.
     status : the counters since reset; they stay at their greatest value.

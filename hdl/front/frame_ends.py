@@ -12,7 +12,7 @@ from softdepth.spec.config import Config
 class FrameEnds(wiring.Component):
     """Turns the guard's items into a raster: ends that came without a pixel are put on the one before.
 
-    A pixel that ends a line but no frame may turn out to be the last: it waits for the item that follows it.
+    A pixel that ends a line but no frame may turn out to be the last, so it waits for the item that follows.
     All others pass in the clock after they came. A pixel a clock.
 
     Members

@@ -21,7 +21,7 @@ def from_zero(config: Config) -> Config:
 class Overlap(wiring.Component):
     """Moves one view along the lines by `Config.min_disparity`, and drops what has lost its partner.
 
-    It is the right view for a positive one, the left for a negative: pairs begin with a line's pixel of that
+    If it is positive, the right view moves, otherwise the left one; pairs begin with the line's pixel of that
     number. Lines are longer than that (`Config.min_width`). A pixel a clock, none held.
 
     Members

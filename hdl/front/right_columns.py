@@ -1,4 +1,4 @@
-"""The right image's recent columns, dealt out to the lanes candidate by candidate."""
+"""The right image's recent columns, handed to the lanes candidate by candidate."""
 
 from amaranth.hdl import Module, Mux, ShapeLike, Signal
 from amaranth.lib import data, wiring

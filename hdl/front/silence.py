@@ -9,7 +9,7 @@ from softdepth.spec.config import Config
 
 
 def silent_clocks(config: Config) -> int:
-    """Clocks that make a silence: the longest line's at full rate, up to the next power of two."""
+    """Clocks that make a silence: those of the longest line at full rate, rounded up to a power of two."""
     return 2 ** ceil_log2(config.max_width * config.steps)
 
 
@@ -18,8 +18,8 @@ class Silence(wiring.Component):
 
     Members
     -------
-    waits : in this clock something is waited for; the time begins when nothing was.
-    over : it has been waited for `silent_clocks`. Low a clock after ``waits`` is.
+    waits : something is waited for in this clock; the time starts anew whenever nothing is.
+    over : the wait has lasted `silent_clocks`. Low one clock after ``waits`` is.
     """
 
     def __init__(self, config: Config) -> None:

@@ -1,4 +1,4 @@
-"""A state machine with a register for each state, and for each question that is asked of several."""
+"""A state machine with a register for each state, and for each question about several states."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -16,7 +16,7 @@ class StepCounter(wiring.Component):
     -------
     load : a pixel begins; not while ``held``.
     credit : in the next clock there is room for another result.
-    held : no pixel may begin in this clock, as one has steps left or there is no credit.
+    held : no pixel may begin in this clock, because one has steps left or there is no credit.
     valid, first, last, step : a step is taken, from the clock after ``load`` on.
     """
 

@@ -35,7 +35,7 @@ class SupportRows(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        # What is said of the row is known a row ahead.
+        # The outputs about a row are known a row ahead.
         with m.If(self.line_ends & ~self.inner):
             m.d.sync += [
                 self.rows.eq(self.rows + 1),

@@ -19,6 +19,6 @@ PLLS: dict[str, Callable[[Board, Signal, Signal, Signal], Instance]] = {
 def pll(board: Board, oscillator: Signal, clock: Signal, locked: Signal) -> Instance:
     """The PLL of the board's part: `oscillator` becomes `clock`, of ``board.core_hz``, good when `locked`.
 
-    Raises `ConfigError` where the part cannot make that clock.
+    Raises `ConfigError` if the part cannot make that clock.
     """
     return PLLS[board.family](board, oscillator, clock, locked)

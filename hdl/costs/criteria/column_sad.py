@@ -54,7 +54,7 @@ class ColumnSad(wiring.Component):
     ----------
     windows : window heights in ascending order, all odd.
     pixel : what is compared.
-    stored_rows : rows whose costs come from memory. They are the upper ones: each was computed when
+    stored_rows : rows whose costs come from memory. They are the upper ones; each was computed when
         it was lower in the column.
     places : columns of the longest line, times candidates of a pixel.
 

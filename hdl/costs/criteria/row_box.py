@@ -9,7 +9,7 @@ from softdepth.hdl.memory.delay import Delay
 
 
 class RowBox(wiring.Component):
-    """The sum of a candidate's last ``columns`` column sums, those that came ``lag`` columns later left out.
+    """The sum of a candidate's last ``columns`` column sums, without those that came ``lag`` columns later.
 
     Column sums come step by step; those of the same candidate lie ``steps`` apart.
 

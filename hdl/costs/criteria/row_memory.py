@@ -14,9 +14,9 @@ LOOKUP_AHEAD = 2
 class RowMemory(wiring.Component):
     """Remembers the costs that a lane computed at the same place of the last ``rows`` lines.
 
-    What a window's rows cost at a column and a candidate was computed once already, when each of
-    them was the newest row that the lane looks at. Kept here it need not be computed again. Rows from
-    before the frame hold stale costs, which only border results see.
+    The cost of each of a window's rows, at a column and a candidate, was computed once already, when it was
+    the newest row that the lane looks at. It is kept here, so it need not be computed again. Rows from before
+    the frame hold stale costs, which only border results see.
 
     Parameters
     ----------

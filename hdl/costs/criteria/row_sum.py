@@ -8,8 +8,8 @@ from amaranth.lib.wiring import In, Out
 class RowSum(wiring.Component):
     """The sum of a candidate's last ``columns`` column sums: two additions, however many there are.
 
-    Column sums come step by step; those of the same candidate lie ``steps`` apart. Sums begin from 0 with
-    each line, so that an upset bit stays no longer.
+    Column sums come step by step; those of the same candidate lie ``steps`` apart. Sums start from 0 with
+    each line, so an upset bit does not last longer.
 
     Parameters
     ----------

@@ -13,8 +13,8 @@ from softdepth.hdl.memory.packed_memory import PackedMemory
 class RunningSums(wiring.Component):
     """Several sums of the same place: ``sum += new - old``, begun from 0 on a frame's first row.
 
-    Whatever the memory held before a frame counts for nothing. A place a clock; the same place not sooner
-    than 6 clocks later.
+    What the memory held before a frame does not matter. One place a clock; the same place not sooner than 6
+    clocks later.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class RunningSums(wiring.Component):
     Members
     -------
     valid, place, begins : a place is looked up; it is on a frame's first row.
-    outside : there is no such column: the sums are 0 and nothing is stored. The place says nothing.
+    outside : there is no such column; the sums are 0, nothing is stored, and ``place`` does not matter.
     new, old : what comes in and what goes, `ahead` clocks after its place.
     o : the sums, `latency` clocks after the place.
     """

@@ -15,7 +15,7 @@ MULTIPLY_CLOCKS = 2
 
 
 def reciprocals(taps: int) -> tuple[int, ...]:
-    """What sums of 1, 2, ... columns are multiplied by."""
+    """The factors of sums of 1, 2, ... columns."""
     return tuple(((2 << RECIPROCAL_BITS) // n + 1) // 2 for n in range(1, taps + 1))
 
 

@@ -52,7 +52,7 @@ class GradientDifference(wiring.Component):
 
     Members
     -------
-    truncation : as the parameter, until it is set to a signal that is no greater and may change.
+    truncation : the parameter, unless it is set to a signal, which may change and is never greater.
     a, b : gradients of this shape.
     absent, inside, o : as in `Hamming`.
     """

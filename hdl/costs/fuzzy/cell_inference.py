@@ -78,7 +78,7 @@ class CellInference(wiring.Component):
         g = g1 + g2
         # A carry of 0: without it, synthesis makes one sum of three operands, which takes more logic.
         den = f + add_with_carry(g, g0, 0, 3 * low, 3 * high)
-        # What complements lack: 1 in f2 - f0, and none in g2 - g0, which is one of a complement.
+        # What the complements lack: 1 in f2 - f0, and nothing in g2 - g0, which is itself a complement.
         f_rise = f2 + f0.inverted
         g_fall = g0 + g2.inverted
         num = add_with_carry(f_rise, g_fall.inverted, 1, -6 * high, 6 * high)

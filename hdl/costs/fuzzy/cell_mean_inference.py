@@ -32,8 +32,8 @@ class CellMeanInference(wiring.Component):
 
     The second bracket is 0 to 8, so that the -32 is constant bits above it. Z is ``B - C`` or its triple,
     or the opposite of that; X is chosen and Z complemented right in front of an addition, where a carry
-    cell of ECP5 has room for it. Where a criterion is limited to 2T, a reset or set of registers does it,
-    and takes no logic. Two pairs of sums share a carry chain each: one adder for every sum takes 4 LUT4
+    cell of ECP5 has room for it. A reset or set of registers limits a criterion to 2T,
+    which takes no logic. Two pairs of sums share a carry chain each: one adder for every sum takes 4 LUT4
     more in a lane of `compact` (547 instead of 543), and none in one of `lite`.
 
     Members are those of `RuleInference`. One candidate a clock.
@@ -51,7 +51,7 @@ class CellMeanInference(wiring.Component):
         one = self._config.one
         (a, b, c), (upper, b_differs, c_differs) = self._limited(pipe)
 
-        # B - C, and in place of its sign whether X is B: a's bit above B turns it over.
+        # B - C, with X is B in place of its sign: the bit a above B inverts it.
         turned = (Cat(b.value, upper.value) - c.value)[: len(b.value) + 1]
         turned = pipe.result(turned, 0, 4 * one - 1, b.time)
         x_is_b = turned[len(turned) - 1]

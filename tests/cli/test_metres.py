@@ -59,7 +59,7 @@ def test_a_later_run_without_cameras_leaves_no_metres(softdepth, files: Files, t
         (("--focal", 0, "--baseline", 0.1), "focal is 0; give a number of pixels above 0"),
         ((*CAMERAS, "--min-confidence", 300), "min_confidence is 300; use 0 to 255"),
         ((*CAMERAS, "--min-confidence", 3), "min_confidence is 3, but preset sad has no confidence"),
-        ((*CAMERAS, "--set", "reference=right"), "depth in metres is the left view's"),
+        ((*CAMERAS, "--set", "reference=right"), "depth in metres is for the left view"),
         (("--measured-only",), "--measured-only is about depth in metres"),
         (("--disparity-error", 0.5), "--disparity-error 0.5 is about depth in metres"),
         ((*CAMERAS, "--disparity-error", -1), "--disparity-error -1 is not an error"),
@@ -105,7 +105,7 @@ def test_a_rig_that_is_none(softdepth, tmp_path, frames, rig):  # noqa: F811
     [
         (("--tolerance", -1), "--tolerance -1 is not a time"),
         (("--tolerance", "nan"), "--tolerance nan is not a time"),
-        (("--set", "reference=right"), "depth in metres is the left view's"),
+        (("--set", "reference=right"), "depth in metres is for the left view"),
         (("--min-confidence", 9), "preset sad has no confidence"),
         (("--rig", "/left/image_rect,/nothing"), "the bag has no topic '/nothing'"),
         (("--rig", "/left/image_rect,/left/image_rect"), "has one topic for both views"),

@@ -124,7 +124,7 @@ def test_raw_frames_are_rectified_as_a_pair_is(softdepth, tmp_path):
             assert found.read_bytes() == (tmp_path / "run" / file).read_bytes()
         expected = (tmp_path / "run" / "calibration.yml").read_bytes()
         assert (tmp_path / name / "calibration.yml").read_bytes() == expected
-    assert "say --raw" in softdepth("sequence", robot, *SMALL, "-o", tmp_path / "none").error
+    assert "add --raw" in softdepth("sequence", robot, *SMALL, "-o", tmp_path / "none").error
 
 
 def test_what_a_video_still_holds_that_breaks_off_is_computed_and_marked(softdepth, tmp_path):

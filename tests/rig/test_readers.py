@@ -174,7 +174,7 @@ def test_kitti(tmp_path, first, second):
         ("hello\n", "is not a calibration of a known form"),
         ("cam0: [1, 2\n", "is not YAML"),
         ("cam0=[0 0 1; 0 1 1; 0 0 1]\ncam1=[0 0 1; 0 1 1; 0 0 1]\nbaseline=1\n", "focal length"),
-        ("%YAML:1.0\n---\nM1: !!opencv-matrix\n  rows: 3\n", "no OpenCV calibration|no key"),
+        ("%YAML:1.0\n---\nM1: !!opencv-matrix\n  rows: 3\n", "not an OpenCV calibration|no key"),
         ("%YAML:1.0\n---\nother: 1\n", "has no key 'M1', 'P1' or 'Q'"),
         ("\ufeffcam0=[1 0 1; 0 1 1; 0 0 1]\n", "has no key 'cam1'"),
         (

@@ -230,9 +230,9 @@ def test_npy_that_is_no_map(tmp_path: Path, values: np.ndarray, problem: str) ->
 
 def test_npy_with_objects_is_not_run(tmp_path: Path) -> None:
     np.save(path := tmp_path / "d.npy", np.array([[print]], object), allow_pickle=True)
-    assert "no readable NPY" in refused(path)
+    assert "not a readable NPY" in refused(path)
     path.write_bytes(path.read_bytes()[:40])
-    assert "no readable NPY" in refused(path)
+    assert "not a readable NPY" in refused(path)
 
 
 def test_float_tiff(tmp_path: Path) -> None:

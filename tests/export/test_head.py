@@ -139,7 +139,7 @@ def test_two_cores_by_name_have_no_module_in_common() -> None:
 
 @pytest.mark.parametrize("name", ["2fast", "a-b", "a__b", "a_", "", "module", "Entity\n", "logic"])
 def test_names_that_some_tool_does_not_take(name: str) -> None:
-    with pytest.raises(InputError, match="name for a module"):
+    with pytest.raises(InputError, match="cannot name a module"):
         check_export(SMALL["sad"], name)
 
 

@@ -1,12 +1,12 @@
-"""A counter down to none, with registers for what is asked of it."""
+"""A counter down to 0, with registers for the questions about it."""
 
 from amaranth.hdl import Module, Signal
 
 
 class Countdown:
-    """Counts what is still to come; whether that is any, and whether the last, are registers of their own.
+    """Counts what is still to come. Whether there is any, and whether it is the last, are registers.
 
-    Nothing is compared between the count and what listens to it: one bit each decides.
+    So nothing is compared between the count and its users: each looks at one bit.
 
     Parameters
     ----------
@@ -17,7 +17,7 @@ class Countdown:
     Members
     -------
     left : still to come, the present one included.
-    some, last : that is not 0, and it is 1.
+    some, last : whether that is not 0, and whether it is 1.
     """
 
     def __init__(self, m: Module, most: int, name: str, *, init: int = 0) -> None:

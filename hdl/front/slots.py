@@ -1,4 +1,4 @@
-"""Deals descriptors out as slots of steps, with what is needed beyond a line's and a frame's end."""
+"""Hands descriptors out in slots of steps, with those needed beyond the ends of lines and frames."""
 
 from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -10,7 +10,7 @@ from softdepth.hdl.memory.window import MARKERS
 
 
 def slot_layout(payload: ShapeLike, columns: int, rows: int) -> data.StructLayout:
-    """What is known of a slot.
+    """What is known about a slot.
 
     ``payload`` : of its pixel, if it has one.
     ``x`` : its column, counted on beyond the line's end.
@@ -40,17 +40,17 @@ def slot_layout(payload: ShapeLike, columns: int, rows: int) -> data.StructLayou
 class Slots(wiring.Component):
     """Issues slots of ``steps`` clocks: for each pixel, and where a support reaches beyond the frame.
 
-    A line has ``right`` slots after its last pixel, a frame ``below`` lines after its last, and ``drain``
-    slots after these, for what behind it counts in slots. The lines behind a frame come in like its own;
-    for all else input is held back. Nothing waits for the frame that follows.
+    A line has ``right`` slots after its last pixel. A frame has ``below`` lines after its last, and ``drain``
+    slots after these, for blocks further on that count in slots. The lines after a frame come in like its own;
+    for all other slots, input is held back. Nothing waits for the next frame.
 
     Parameters
     ----------
-    payload : of the raster that comes in, but for its markers.
+    payload : of the raster that comes in, without its markers.
     steps : clocks of a slot.
     right, below : columns and rows that supports reach to the right of a pixel and below it.
-    history : rows above a slot's of which it is told whether they lie in the frame.
-    first : the column of a line's first pixel that is judged.
+    history : how many rows above a slot's own tell whether they lie in the frame.
+    first : the column of the first pixel of a line that is judged.
 
     Members
     -------

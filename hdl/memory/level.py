@@ -6,7 +6,7 @@ from amaranth.hdl import Module, Signal, Value
 class Level:
     """Counts words that come and go; whether there are any, and room for more, are registers of their own.
 
-    What happens may be known late in a clock: it chooses, and goes through no sum.
+    What comes and goes may be known late in a clock: it only chooses, and does not pass through a sum.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""When the slots of a raster are: of a pixel that comes, or of what lies beyond the frame's edge."""
+"""Decides when the slots of a raster come: for a pixel that arrives, or beyond the frame's edge."""
 
 from amaranth.hdl import Module, Signal, Value
 
@@ -6,15 +6,15 @@ from softdepth.hdl.arithmetic.countdown import Countdown
 
 
 class Pace:
-    """Decides by registers alone, but for what is offered, whether there is a slot in this clock.
+    """Decides whether there is a slot in this clock, from registers alone except for what is offered.
 
     Parameters
     ----------
     m : the module that this is part of.
     clocks : of a slot, at least.
-    credit : a slot may be, as a register says.
+    credit : a register that says that a slot may begin.
     valid, ready : of the raster; ``ready`` is driven.
-    beyond : conditions, registers too, in which a slot is not of a pixel that comes: input is held back.
+    beyond : registers too: a slot does not take a pixel, and input is held back.
 
     Members
     -------

@@ -1,4 +1,4 @@
-"""What was not measured is filled from its row."""
+"""Fills pixels without a measurement from their row."""
 
 from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
@@ -15,7 +15,7 @@ UNMEASURED = 3
 
 
 def _waiting_layout(colour_bits: int) -> data.StructLayout:
-    """A result in the queue, two words of 18 bits in colour: its value waits among the measured ones.
+    """A result in the queue, two words of 18 bits with colour; its value waits among the measured ones.
 
     ``end`` : 0, 1 for a line's last and 2 for a frame's, or `UNMEASURED`.
     ``about`` : of a measurement its confidence, else that end.
@@ -32,12 +32,12 @@ def _waiting_layout(colour_bits: int) -> data.StructLayout:
 
 
 class Fill(wiring.Component):
-    """Gives a result that is no measurement the smaller of the row's nearest measurements left and right.
+    """Gives each result without a measurement the smaller of the row's nearest measurements left and right.
 
-    Measured values wait in a queue of their own, and after those of each row a mark: its head is the
-    nearest to the right as soon as that has come in, the last one that left it the nearest to the left.
-    Filled results have confidence 0. In a row without any the value is 0, and the code says so. A result a
-    clock, but for a clock a line; a result waits for the next measurement of its row.
+    Measured values wait in a queue of their own, with a mark after those of each row. The queue's head is the
+    nearest measurement to the right, once it has arrived; the last one that left is the nearest to the left.
+    Filled results have confidence 0. In a row without measurements the value is 0, and the code says so. One
+    result a clock, except for one clock a line; a result waits for the next measurement of its row.
 
     Members
     -------
@@ -97,7 +97,7 @@ class Fill(wiring.Component):
             left_is_smaller.eq(any_left & (head.mark | (last < head.value))),
             nothing.eq(~any_left & head.mark),
         ]
-        # Places behind the choice, which the queues' outputs are far from, and by which no ``ready`` reaches
+        # Places behind the choice, because the queues' outputs are far away, and so that no ``ready`` reaches
         # through to them.
         m.submodules.chosen = places = ItemQueue(self._layout)
         chosen = places.i.payload

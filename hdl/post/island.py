@@ -1,4 +1,4 @@
-"""Results that stand alone are taken back."""
+"""Takes back results that stand alone."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -14,15 +14,15 @@ from softdepth.spec.validity import Validity
 
 
 class Island(wiring.Component):
-    """A measurement with fewer than ``least`` measurements in 5x5, its own among them, becomes an island.
+    """Makes a measurement an island if its 5x5 pixels, itself included, have fewer than ``least`` of them.
 
     The frame's edge is repeated. An island has value 0 and confidence 0; other results pass. A result
-    every ``clocks`` clocks, but for 4 of them a line and 2 lines a frame.
+    every ``clocks`` clocks, except for 4 of them a line and 2 lines a frame.
 
     Members
     -------
     i, o : results, `post_layout`.
-    least : as the parameter, which is its value where it is not driven. It may change between frames.
+    least : the parameter's value unless it is driven. It may change between frames.
     """
 
     latency = 2

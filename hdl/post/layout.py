@@ -13,7 +13,7 @@ CODE_BITS = 3
 def post_layout(value_bits: int, colour_bits: int) -> data.StructLayout:
     """A result on its way: value, `Validity` code, confidence, its pixel's colour, and the markers.
 
-    ``colour`` is the left pixel as it came in, or what else is compared by the masked medians.
+    ``colour`` is the left pixel as it came in, or whatever else the masked medians compare.
     """
     return data.StructLayout(
         {
@@ -27,11 +27,11 @@ def post_layout(value_bits: int, colour_bits: int) -> data.StructLayout:
 
 
 def without_markers(layout: data.StructLayout, *left_out: str) -> data.StructLayout:
-    """The members of a result that are no markers, and not ``left_out`` either."""
+    """The members of a result without the markers and without those ``left_out``."""
     kept = {name: shape for name, shape in layout.members.items() if name not in (*MARKERS, *left_out)}
     return data.StructLayout(kept)
 
 
 def is_measured(code: Value) -> Value:
-    """Whether a code is of a measurement: below `Validity.BORDER`."""
+    """Whether a code belongs to a measurement: it is below `Validity.BORDER`."""
     return ~code[1:].any()

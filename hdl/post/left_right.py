@@ -14,24 +14,24 @@ from softdepth.hdl.signatures import TOLERANCE_BITS
 class LeftRight(wiring.Component):
     """Compares each left winner with the winner of the right pixel that it chose.
 
-    The right winner of a slot's column is known ``disparities - 1`` slots later. So left results wait that
-    long, and the right winners of as many columns are kept. A slot a clock.
+    The right winner of a slot's column is known ``disparities - 1`` slots later. Left results wait that
+    long, and the right winners of that many columns are kept. One slot a clock.
 
     A winner comes `lead` clocks before what else belongs to its slot, which is still computed then. In these
     the right winner is addressed, read, and subtracted, a clock each.
 
     Parameters
     ----------
-    result : what waits with a left winner.
-    tolerance : the largest difference that agrees.
+    result : what waits together with a left winner.
+    tolerance : the largest difference that counts as agreement.
 
     Members
     -------
     valid, winner, right : of a slot: the left winner, and the right winner that leaves with it.
     emits, result : `lead` clocks later: whether it has a result, and what belongs to it.
-    tolerance : as the parameter, which is its value where it is not driven. It may change between frames.
-    done : one slot's results are judged, `lead` and `latency` clocks later, whether it has any or not.
-    o_emits, agrees, o : it has, the views agree, and what belonged to it.
+    tolerance : the parameter's value unless it is driven. It may change between frames.
+    done : a slot has been judged, `lead` and `latency` clocks later, whether or not it has a result.
+    o_emits, agrees, o : whether it has one, whether the views agree, and what belongs to it.
     """
 
     lead = 4
@@ -103,7 +103,7 @@ class LeftRight(wiring.Component):
             waits.i.emits.eq(self.emits),
             waits.i.result.eq(self.result),
         ]
-        # What waits from before a reset is no result.
+        # What was waiting before a reset is not a result.
         slots = Signal(range(disparities))
         warm = Signal()
         m.d.comb += warm.eq(slots == disparities - 1)

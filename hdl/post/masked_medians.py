@@ -1,4 +1,4 @@
-"""Two medians of what is like the centre in colour: along the row, then down the column."""
+"""Two medians over pixels of similar colour: along the row, then down the column."""
 
 from amaranth.hdl import Cat, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -16,23 +16,23 @@ from softdepth.hdl.post.stage import delayed, waiting
 
 
 class MaskedMedians(wiring.Component):
-    """Replaces each value by a lower median of its row, and that by one of its column; the rest stays.
+    """Replaces each value by a lower median in its row, and that by one in its column; the rest stays.
 
-    Of ``2 reach + 1`` pixels those count that lie inside the frame and whose colour departs from the
-    centre's by less than ``like`` in every channel; there is always one, the centre. With ``holes``, results
-    that are no measurement are left out and stay as they are.
+    Of ``2 reach + 1`` pixels, those count that lie inside the frame and whose colour differs from the
+    centre's by less than ``like`` in every channel; the centre always counts. With ``holes``, results
+    without a measurement are left out and stay as they are.
 
-    Two pixels are compared once, when the later one comes in, and the answer is kept for both. So half the
-    comparisons are built, the rows above keep their colours for half the reach alone, and a pixel that lies
-    outside is like none: neither its colour nor its value is then looked at, and no edge is repeated. Both
-    medians go by the same slots: ``reach`` more a line and ``reach`` lines more a frame, in which the input
-    is held back. A result every ``clocks`` clocks.
+    Two pixels are compared once, when the later one arrives, and the answer is kept for both. So only half of
+    the comparisons are built, and rows above keep their colours only for half of the window. A pixel outside
+    the frame is like no other, so its colour and value do not matter and no edge is repeated. Both medians
+    use the same slots: ``reach`` more per line and ``reach`` more lines per frame, in which the input is held
+    back. One result every ``clocks`` clocks.
 
     Parameters
     ----------
-    value_bits, colour_bits, channels : of a result, and into how many equal parts its colour falls.
+    value_bits, colour_bits, channels : of a result, and how many equal parts its colour has.
     like : a number, or a signal that may change between frames.
-    clocks : 1 or 2 that a pixel takes at least. With two, memory and its multiplexers are smaller.
+    clocks : the least that a pixel takes, 1 or 2. With 2, memory and its multiplexers are smaller.
 
     Members
     -------
@@ -77,7 +77,7 @@ class MaskedMedians(wiring.Component):
             *(getattr(slots, name).eq(payload[name]) for name in MARKERS),
         ]
 
-        # What is compared: a colour, and that its result counts where not all do.
+        # What is compared: a colour and, if not all results count, whether this one does.
         compared = self._colour_bits + self._holes
         colour: Value = payload.colour
         if self._holes:
@@ -120,7 +120,7 @@ class MaskedMedians(wiring.Component):
         with m.If(slot[compares]):
             m.d.sync += Cat(*downs).eq(Cat(down, *downs))
 
-        # The row's median goes on top of its column, with what the pixel was compared to.
+        # The row's median goes on top of its column, together with the pixel's answers.
         centre = Cat(values[reach], Value.cast(passing[reach]))
         centre = waiting(m, centre, put - 2, "centre")
         median_of_row = Signal(self._value_bits)
@@ -150,7 +150,7 @@ class MaskedMedians(wiring.Component):
         column_there = put + wait
         down_column = Cat(*column, self._kept([t[:reach] for t in tags]))
 
-        # A register before the column's median: the tags are all in one word.
+        # A register before the column's median, because all tags are in one word.
         size = across * (self._value_bits + 1)
         if self._shared:
             m.submodules.medians = last = LowerMedian(across, self._value_bits)
@@ -184,7 +184,7 @@ class MaskedMedians(wiring.Component):
         with m.If(puts):
             m.d.sync += fresh.eq(eof)
         m.d.comb += [
-            # With one median the row of a slot is not to come with the column of another.
+            # With a single median, the row of a slot must not come together with the column of another.
             slots.credit.eq(queue.credit & ~slot[-1] if self._shared else queue.credit),
             queue.promised.eq(slots.emits),
             queue.put.eq(puts),
@@ -234,7 +234,7 @@ class MaskedMedians(wiring.Component):
     def _kept(self, likes: list[Value]) -> Value:
         """Which of the samples, newest first, are like the one in the middle.
 
-        The answers of a later pixel are to those before it.
+        A later pixel's answers are about those before it.
         """
         reach = self._reach
         newer = [likes[k][reach - 1 - k] for k in range(reach)]

@@ -13,8 +13,8 @@ from softdepth.hdl.post.stage import waiting, window_stage
 class Median(wiring.Component):
     """Replaces each value by the lower median of its window; code and confidence stay.
 
-    The frame's edge is repeated. With ``holes``, results that are no measurement are left out and stay as
-    they are. A result every ``clocks`` clocks, but for twice ``columns`` a line and ``rows`` lines a frame.
+    The frame's edge is repeated. With ``holes``, results without a measurement are left out and stay as they
+    are. One result every ``clocks`` clocks, except for twice ``columns`` a line and ``rows`` lines a frame.
 
     Parameters
     ----------

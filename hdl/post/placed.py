@@ -1,4 +1,4 @@
-"""Results of the columns in which the views overlap, put into the frame."""
+"""Puts results of the columns in which the views overlap into the frame."""
 
 from amaranth.hdl import Module, Mux, Shape, Signal
 from amaranth.lib import data, stream, wiring
@@ -11,7 +11,7 @@ from softdepth.spec.validity import Validity
 
 
 def placed_layout(config: Config) -> data.StructLayout:
-    """As `post_layout` without a colour, with the disparities that are meant."""
+    """`post_layout` without a colour, with the true disparities."""
     members = dict(post_layout(config.result_bits, 0).members)
     return data.StructLayout(members | {"value": Shape(config.result_bits, signed=config.signed)})
 
@@ -19,8 +19,8 @@ def placed_layout(config: Config) -> data.StructLayout:
 class Placed(wiring.Component):
     """Adds `Config.min_disparity` to what has a value, and border results for the columns beside the overlap.
 
-    They stand before a line's results where it is positive, and behind them where it is negative. A result a
-    clock.
+    Border results come before a line's results if it is positive, and after them if it is negative. One
+    result a clock.
 
     Members
     -------

@@ -18,24 +18,24 @@ def median_latency(bits: int, *, all_kept: bool = False) -> int:
 
 
 class LowerMedian(wiring.Component):
-    """Of the samples that are kept the one of rank ``(number - 1) >> 1`` in ascending order, one set a clock.
+    """Of the kept samples, the one of rank ``(number - 1) >> 1`` in ascending order. One set a clock.
 
-    Found bit by bit from the top: of the samples that may still be it, those whose bit is 0 are counted.
-    If there are more than the rank, it is among them; else it is among the others, and the rank falls by
-    their number. No sample is ever moved. A clock counts, either half by itself, and a clock adds and
-    decides, for each bit: a bit waits in distributed RAM until its turn comes, where that is not soon. Where
-    not all are kept, a clock more counts those that are.
+    It is found bit by bit from the top. Among the samples that may still be the median, those with a 0 in this
+    bit are counted. If there are more of them than the rank, the median is one of them. Otherwise it is one
+    of the others, and the rank is lowered by their number. No sample is ever moved. Each bit takes a clock to
+    count, each half by itself, and one to add and decide; bits whose turn is far off wait in distributed RAM.
+    If not all samples are kept, one more clock counts those that are.
 
     Parameters
     ----------
     samples : how many there are.
     bits : of a sample.
-    all_kept : all of them always are, and there is no ``keep``.
+    all_kept : all samples are always kept, and there is no ``keep``.
 
     Members
     -------
     i : the samples.
-    keep : a bit each; one at least is set, or the result says nothing.
+    keep : a bit for each sample; at least one must be set, or the result means nothing.
     o : the median, `latency` clocks later.
     """
 

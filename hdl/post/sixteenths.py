@@ -15,9 +15,9 @@ class Sixteenths(wiring.Component):
     """Where two lines of equal and opposite slope through three neighbouring costs meet. One a clock.
 
     With a, b, c the costs before, behind and at the winner d, and ``s = max(a, b) - c``, the result is
-    ``16 d + floor(8 (a - b) / s + 1/2)``, exact: of ``16 (a - b) + 17 s``, which is never negative, a
-    divider of five steps takes out ``2 s``, and what it finds is 8 too much. Where a neighbour is missing,
-    or s is 0, the result is ``16 d``.
+    ``16 d + floor(8 (a - b) / s + 1/2)``, exactly: a divider of five steps divides ``16 (a - b) + 17 s``,
+    which is never negative, by ``2 s``, and its quotient is 8 too large. If a neighbour is missing or s is 0,
+    the result is ``16 d``.
 
     Members
     -------

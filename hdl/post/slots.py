@@ -1,4 +1,4 @@
-"""When pixels enter a pair of windows that lag behind, and when their results leave."""
+"""Decides when pixels enter a pair of windows that lag behind, and when their results leave."""
 
 from amaranth.hdl import Cat, Module, Mux, Signal
 from amaranth.lib import wiring
@@ -11,10 +11,11 @@ from softdepth.hdl.memory.window import MARKERS
 
 
 class PostSlots(wiring.Component):
-    """Goes through a frame pixel by pixel, on for ``reach`` slots behind each line and ``reach`` lines below.
+    """Goes through a frame pixel by pixel, then ``reach`` slots past each line and ``reach`` lines below.
 
-    A slot is a clock in which a pixel enters, of the frame or beyond it. The pixel ``reach`` slots before it
-    is then in the middle of its row, and the one ``reach`` rows above that in the middle of its column.
+    A slot is a clock in which a pixel of the frame, or one beyond it, enters. The pixel ``reach`` slots
+    before it is then in the middle of its row, and the one ``reach`` rows above that in the middle of its
+    column.
 
     Parameters
     ----------
@@ -24,8 +25,8 @@ class PostSlots(wiring.Component):
     Members
     -------
     valid, ready, sof, eol, eof, damaged : the pixels of sound frames.
-    credit : a slot may be.
-    slot : there is one.
+    credit : a slot may begin.
+    slot : a slot begins.
     stores, x : its pixel lies in the frame's columns, and in which.
     before, above : of the ``reach`` pixels before it, and above it, nearest first, which lie in its line, and
         in the frame. None does above a pixel below the frame.

@@ -23,7 +23,7 @@ def window_stage(
     companion: Value,
     results: Mapping[str, Value],
 ) -> None:
-    """Puts a window and what is computed of it between two streams.
+    """Puts a window, and what is computed from it, between two streams.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def window_stage(
     i, o : the streams; both have the markers.
     latency : clocks from the window to ``results``.
     element, companion : of the input's payload.
-    results : the output's payload but for its markers, ``latency`` clocks after the window.
+    results : the output's payload without its markers, ``latency`` clocks after the window.
     """
     m.submodules.window = window
     payload = i.payload

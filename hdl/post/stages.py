@@ -15,7 +15,7 @@ from softdepth.spec.post import MEDIAN_REACH
 def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedians]:
     """By name: each has streams ``i`` and ``o`` of `post_layout`, for results of either kind of winners.
 
-    The left-right check, fractions and confidence are among the winners, which know the costs.
+    The left-right check, fractions and confidence belong to the winners, which know the costs.
     """
     config = from_zero(config)
     post = config.post

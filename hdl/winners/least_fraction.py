@@ -1,4 +1,4 @@
-"""The smallest of fractions some of which are excluded, wherever they stand."""
+"""The smallest of several fractions, any of which may be excluded."""
 
 from amaranth.hdl import Module, Signal, Value
 from amaranth.lib import data, wiring
@@ -12,12 +12,13 @@ from softdepth.hdl.winners.tournament import tournament, tournament_latency
 class LeastFraction(wiring.Component):
     """The least cost of all lanes and steps of a pixel.
 
-    Unlike in `ArgminTree`, those that are excluded need not be the last ones.
+    Its tree is not an `ArgminTree`: there the excluded candidates are always the last ones, which spares each
+    node a comparison of indices and the choice between exclusions. Here any candidate may be excluded.
 
     Members
     -------
-    valid, last, costs, excluded : a step's, and that it is its pixel's last.
-    o, found : the least, and whether there is any, `latency` clocks after the last step.
+    valid, last, costs, excluded : of a step; ``last`` says that it is its pixel's last.
+    o, found : the least cost, and whether there is any, `latency` clocks after the last step.
     """
 
     def __init__(self, cost: data.StructLayout, lanes: int, steps: int) -> None:

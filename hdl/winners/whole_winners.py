@@ -34,7 +34,7 @@ KEPT_TOGETHER = 8
 class WholeWinners(wiring.Component):
     """Finds each pixel's result among the costs that come step by step; back-pressure reaches `credit`.
 
-    Fractions are compared as they are, and are made numbers where fractions of a pixel and margins need them.
+    Fractions are compared as they are; they become numbers where fractions of a pixel and margins need them.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class WholeWinners(wiring.Component):
     Members
     -------
     The ports of `winner_ports` with the tags of `WholeCosts`. And
-    tolerance : of the check, `Post.tolerance` where it is not driven. It may change between frames.
+    tolerance : of the check, `Post.tolerance` unless it is driven. It may change between frames.
     o : a stream of results, `post_layout`.
     """
 

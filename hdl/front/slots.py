@@ -41,8 +41,8 @@ class Slots(wiring.Component):
     """Issues slots of ``steps`` clocks: for each pixel, and where a support reaches beyond the frame.
 
     A line has ``right`` slots after its last pixel. A frame has ``below`` lines after its last, and ``drain``
-    slots after these, for blocks further on that count in slots. The lines after a frame come in like its own;
-    for all other slots, input is held back. Nothing waits for the next frame.
+    slots after these, for blocks further on that count in slots. The lines after a frame come in like its
+    own; for all other slots, input is held back. Nothing waits for the next frame.
 
     Parameters
     ----------

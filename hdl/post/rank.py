@@ -20,11 +20,11 @@ def median_latency(bits: int, *, all_kept: bool = False) -> int:
 class LowerMedian(wiring.Component):
     """Of the kept samples, the one of rank ``(number - 1) >> 1`` in ascending order. One set a clock.
 
-    It is found bit by bit from the top. Among the samples that may still be the median, those with a 0 in this
-    bit are counted. If there are more of them than the rank, the median is one of them. Otherwise it is one
-    of the others, and the rank is lowered by their number. No sample is ever moved. Each bit takes a clock to
-    count, each half by itself, and one to add and decide; bits whose turn is far off wait in distributed RAM.
-    If not all samples are kept, one more clock counts those that are.
+    It is found bit by bit from the top. Among the samples that may still be the median, those with a 0 in
+    this bit are counted. If there are more of them than the rank, the median is one of them. Otherwise it is
+    one of the others, and the rank is lowered by their number. No sample is ever moved. Each bit takes a
+    clock to count, each half by itself, and one to add and decide; bits whose turn is far off wait in
+    distributed RAM. If not all samples are kept, one more clock counts those that are.
 
     Parameters
     ----------

@@ -12,8 +12,8 @@ from softdepth.hdl.winners.tournament import tournament, tournament_latency
 class LeastFraction(wiring.Component):
     """The least cost of all lanes and steps of a pixel.
 
-    Its tree is not an `ArgminTree`: there the excluded candidates are always the last ones, which spares each
-    node a comparison of indices and the choice between exclusions. Here any candidate may be excluded.
+    Any candidate may be excluded, so they meet in a `tournament`. In an `ArgminTree` the excluded ones are
+    always the last, which spares each node a comparison of indices and the choice between exclusions.
 
     Members
     -------

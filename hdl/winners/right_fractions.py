@@ -1,4 +1,4 @@
-"""The right view's winner where costs are fractions: compared in several clocks."""
+"""The right view's winner if costs are fractions, which are compared in several clocks."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
@@ -13,16 +13,17 @@ from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 
 
 class RightFractions(wiring.Component):
-    """As `RightWinner`, of fractions, each compared by a `FractionMin` that takes its clocks for it.
+    """Like `RightWinner`, for fractions, each compared by a `FractionMin` that takes its time.
 
-    The best so far of a right pixel waits in distributed RAM for its next candidate. In one lane that comes
-    ``steps - 1`` steps later. Where this is time enough, all candidates follow each other as in
-    `RightWinner`. With fewer steps there are several bests of a right pixel, each of a part of its
-    candidates (`right_parts`): those of the same step in every lane, whose next comes ``steps**2`` steps
-    later, or in every few lanes, whose next comes a multiple of that later. At the end the best of these is
-    found, and of equal ones that of the smallest index. A later candidate never takes over from an equal one.
+    The best candidate so far of a right pixel waits in distributed RAM for the next one. In the same lane,
+    that comes ``steps - 1`` steps later. If this is time enough, all candidates follow each other as in
+    `RightWinner`. With fewer steps, a right pixel has several bests, each among a part of its candidates
+    (`right_parts`). A part has those of the same step in every lane, whose next one comes ``steps**2`` steps
+    later, or in every few lanes, whose next one comes a multiple of that later. At the end the best of these
+    is found, and among equal ones that with the smallest index. A later candidate never takes over from an
+    equal one.
 
-    Parameters and members are those of `RightWinner`, but for
+    Parameters and members are those of `RightWinner`, except for
     latency : clocks from a slot's first step to its winner, which is held until the next.
     """
 

@@ -1,4 +1,4 @@
-"""The best of some candidates that are there together, in whatever order."""
+"""The best of several candidates that arrive together, in any order."""
 
 from collections.abc import Sequence
 
@@ -10,9 +10,10 @@ from softdepth.hdl.winners.argmin import FractionMin, latency
 
 
 def tournament(m: Module, candidates: Sequence[data.View]) -> data.View:
-    """The best of ``candidates``, `tournament_latency` clocks later; on a tie that of the smallest index.
+    """The best of ``candidates``, `tournament_latency` clocks later; on a tie, the one with the smallest
+    index.
 
-    Unlike in `ArgminTree`, indices come with the candidates, and excluded ones need not be the last.
+    Unlike in `ArgminTree`, the indices come with the candidates, and excluded ones need not be the last.
     """
     level = list(candidates)
     layout = level[0].shape()

@@ -10,7 +10,10 @@ from softdepth.hdl.built import check_built
 from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
+from softdepth.hdl.left_pixels import LeftPixels
+from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.post.island import Island
+from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.placed import Placed
 from softdepth.hdl.post.stages import post_stages
 from softdepth.hdl.signatures import (
@@ -54,10 +57,15 @@ class StereoCore(wiring.Component):
 
     Raises `ConfigError` for a configuration that has a model but no gateware.
 
+    Parameters
+    ----------
+    settings : it is told thresholds while it runs.
+    left : each result carries its pixel of the left view, as it was judged: in mended frames a mended one.
+
     Members
     -------
     i : stream of `pair_layout(config.pixel)`.
-    o : stream of `result_layout(config)`, one result for each pixel, in the same order.
+    o : stream of `result_layout`, one result for each pixel, in the same order.
     status : counters of broken input.
     settings, faults : with ``settings``, what `settings_layout` says, and the faults of the clock before.
     """
@@ -66,10 +74,13 @@ class StereoCore(wiring.Component):
     full_rate_latency: int | None = None
     fifo_depth: int | None = None
 
-    def __init__(self, config: Config, *, settings: bool = False) -> None:
+    def __init__(self, config: Config, *, settings: bool = False, left: bool = False) -> None:
         check_built(config)
         self._config, self._takes_settings = config, settings
-        self._front = Front(config)
+        self._left = LeftPixels.of(config) if left else None
+        self._front = Front(
+            config, left=self._left.places if self._left and self._left.origin == "guard" else 0
+        )
         with told(thresholds_layout(config)) if settings else nullcontext() as thresholds:
             self._costs = costs_of(config, self._front.layout)
             self._winners = winners_of(config, self._costs)
@@ -82,7 +93,7 @@ class StereoCore(wiring.Component):
         super().__init__(
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
-                "o": Out(stream.Signature(result_layout(config))),
+                "o": Out(stream.Signature(result_layout(config, left=left))),
                 "status": Out(Status),
                 **(settings_ports(config) if settings else {}),
             }
@@ -95,8 +106,13 @@ class StereoCore(wiring.Component):
         wiring.connect(m, self._front.o, self._costs.i)
         join(m, self._costs, self._winners)
         results = self._winners.o
+        kept = self._front.kept if self._left and self._left.origin == "guard" else None
         for name, stage in self._post.items():
             m.submodules[name] = stage
+            if self._left and self._left.origin == "medians" and isinstance(stage, MaskedMedians):
+                m.submodules.left = left = Kept(results.payload.shape(), "colour", self._left.places)
+                wiring.connect(m, results, left.i)
+                results, kept = left.o, left.kept
             wiring.connect(m, results, stage.i)
             results = stage.o
         if self._config.min_disparity and isinstance(self._winners, WholeWinners):
@@ -111,8 +127,17 @@ class StereoCore(wiring.Component):
             self.o.valid.eq(results.valid),
             results.ready.eq(self.o.ready),
             o.disparity.eq(found.value),
-            *(o[name].eq(found[name]) for name in o.shape().members if name != "disparity"),
+            *(o[name].eq(found[name]) for name in o.shape().members if name not in ("disparity", "left")),
         ]
+        if kept is not None:
+            m.d.comb += [
+                self.o.valid.eq(results.valid & kept.valid),
+                results.ready.eq(self.o.ready & kept.valid),
+                kept.ready.eq(self.o.ready & results.valid),
+                o.left.eq(kept.payload),
+            ]
+        elif self._left:
+            m.d.comb += o.left.eq(found.colour)
         return m
 
     def _set(self, m: Module) -> None:

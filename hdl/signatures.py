@@ -34,9 +34,9 @@ def pair_layout(pixel: PixelFormat) -> data.StructLayout:
     )
 
 
-def result_layout(config: Config) -> data.StructLayout:
+def result_layout(config: Config, *, left: bool = False) -> data.StructLayout:
     """Output payload: ``disparity`` in units of ``2**-fraction_bits`` pixels, its `Validity` code, its
-    ``confidence`` where the core gives one, and the markers of its own pixel.
+    ``confidence`` where the core gives one, on request its pixel of the left view, and its markers.
 
     ``damaged`` is set from the first result after a break in the input (a short or long line, a
     misplaced start of frame) to the frame's end.
@@ -46,6 +46,7 @@ def result_layout(config: Config) -> data.StructLayout:
             "disparity": Shape(config.result_bits, signed=config.signed),
             "code": unsigned(config.code_bits),
             **({"confidence": unsigned(CONFIDENCE_BITS)} if config.post.confidence else {}),
+            **({"left": unsigned(config.pixel.size)} if left else {}),
             "sof": 1,
             "eol": 1,
             "eof": 1,

@@ -9,7 +9,7 @@ from softdepth.hdl.axi.frames import Frames
 from softdepth.hdl.axi.inputs import PREFIX, OneStream, TwoStreams, axi_stream
 from softdepth.hdl.axi.markers import Markers
 from softdepth.hdl.axi.register_bank import RegisterBank, word_bits
-from softdepth.hdl.axi.tdata import extended, outcome_layout
+from softdepth.hdl.axi.tdata import bits_of, extended, outcome_layout
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.post.layout import is_measured
@@ -62,10 +62,10 @@ class AxiCore(wiring.Component):
     """
 
     def __init__(self, config: Config, options: AxiOptions = DEFAULT) -> None:
-        self._config = config
+        self._config, self._outcome = config, outcome_layout(config, left=options.left)
         self._bus: Bus = options.bus
         self._source = TwoStreams(config, options) if options.two else OneStream(config)
-        self._core = StereoCore(config, settings=True)
+        self._core = StereoCore(config, settings=True, left=options.left)
         self._registers = registers(config, options)
         prefix, ports, _ = BUSES[self._bus]
         streams = {name: member for name, member in self._source.signature.members.items() if _is_port(name)}
@@ -74,7 +74,7 @@ class AxiCore(wiring.Component):
                 "aclk": In(1),
                 "aresetn": In(1),
                 **streams,
-                **axi_stream("m_axis", outcome_layout(config).size, Out),
+                **axi_stream("m_axis", self._outcome.size, Out),
                 **{f"{prefix}_{name}": member for name, member in ports(word_bits(self._registers)).items()},
                 "irq": Out(1),
             }
@@ -185,12 +185,14 @@ class AxiCore(wiring.Component):
         """Results as they leave."""
         config = self._config
         result = self._core.o.payload
-        outcome = Signal(outcome_layout(config))
+        outcome = Signal(self._outcome)
         unsure = Signal()
         if config.post.confidence:
             measured = is_measured(result.code)
             m.d.comb += unsure.eq(measured & (result.confidence < applied.confidence_floor))
             m.d.comb += outcome.confidence.eq(result.confidence)
+        if "left" in self._outcome.members:
+            m.d.comb += outcome.left.eq(bits_of(result.left, config.pixel))
         code = Signal(UNSURE.bit_length())
         m.d.comb += code.eq(Mux(unsure, UNSURE, result.code))
         valid = is_measured(code) | (code == Validity.FILLED)

@@ -34,6 +34,11 @@ def pixel_of(bits: Value, pixel: PixelFormat) -> Value:
     return Cat(bits.word_select(order.index(k), pixel.bits) for k in range(pixel.channels))
 
 
+def bits_of(value: Value, pixel: PixelFormat) -> Value:
+    """A pixel of the core in UG934's order: the reverse of `pixel_of`."""
+    return Cat(value.word_select(channel, pixel.bits) for channel in CHANNELS[pixel.channels])
+
+
 def outcome_layout(config: Config, *, left: bool = False) -> data.StructLayout:
     """``tdata`` of a result, byte by byte, lowest first; on request with its pixel of the left view."""
     return data.StructLayout(

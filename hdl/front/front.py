@@ -11,6 +11,7 @@ from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.front.overlap import Overlap
 from softdepth.hdl.memory.folded_memory import clocks_of
+from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
@@ -26,10 +27,15 @@ class Front(wiring.Component):
     edges repeated, and those of the views' overlap where candidates do not begin at 0. During reset no
     pixel is taken: ``i.ready`` is low.
 
+    Parameters
+    ----------
+    left : of how many items that have left the guard the left pixel is kept; of none unless set.
+
     Members
     -------
     i : stream of `pair_layout(config.pixel)`.
     o : stream of `layout`: `item_layout` of windows of pixels, or the raster of `Descriptors`.
+    kept : with ``left``, a stream of the left pixels of well-formed frames, one for each result to come.
     hold, skip, clear, forget, faults, status : as of `FrameGuard`.
     """
 
@@ -38,8 +44,8 @@ class Front(wiring.Component):
     places = ItemQueue.places
     """Items that wait here where the room behind is busy."""
 
-    def __init__(self, config: Config) -> None:
-        self._config = config
+    def __init__(self, config: Config, *, left: int = 0) -> None:
+        self._config, self._left = config, left
         self._descriptors = None if by_windows(config) else self._wanted()
         self.layout: data.StructLayout = (
             self._descriptors.layout if self._descriptors else item_layout(config)
@@ -48,6 +54,7 @@ class Front(wiring.Component):
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
                 "o": Out(stream.Signature(self.layout)),
+                **({"kept": Out(stream.Signature(config.pixel.size))} if left else {}),
                 **{name: In(1) for name in STEERING},
                 "faults": Out(Faults),
                 "status": Out(Status),
@@ -67,7 +74,13 @@ class Front(wiring.Component):
             self.faults.eq(guard.faults),
             *(getattr(guard, name).eq(getattr(self, name)) for name in STEERING),
         ]
-        wiring.connect(m, guard.o, queue.i)
+        items = guard.o
+        if self._left:
+            m.submodules.left = left = Kept(item_layout(config), "left", self._left)
+            wiring.connect(m, items, left.i)
+            wiring.connect(m, left.kept, wiring.flipped(self.kept))
+            items = left.o
+        wiring.connect(m, items, queue.i)
         if self._descriptors is None:
             wiring.connect(m, queue.o, wiring.flipped(self.o))
             return m

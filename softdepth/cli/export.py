@@ -54,17 +54,21 @@ def export(
     clocks: Annotated[
         Clocks | None, typer.Option("--clocks", help="Of two inputs: the core's, or each its own.")
     ] = None,
+    left: Annotated[
+        bool, typer.Option("--left", help="With --ip: results carry their pixel of the left view.")
+    ] = False,
 ) -> None:
     """Write the core as one self-contained Verilog file, or as a package for a design with AXI streams."""
     chosen = choice.configuration()
-    asked = {"bus": bus, "inputs": inputs, "skew": skew, "clocks": clocks}
+    asked = {"bus": bus, "inputs": inputs, "skew": skew, "clocks": clocks, "left": left or None}
     if ip is not None:
         _package(chosen, name, output, _options({k: v for k, v in asked.items() if v is not None}, chosen))
         return
     for option, value in asked.items():
         if value is not None:
             what = "has no registers" if option == "bus" else "has a stream of its own"
-            raise InputError(f"--{option} {value} without --ip: the plain core {what}", "add --ip axi")
+            text = option if value is True else f"{option} {value}"
+            raise InputError(f"--{text} without --ip: the plain core {what}", "add --ip axi")
     on_screen = str(output) == "-"
     from softdepth.export.core_file import check_export, export_core
     from softdepth.files import check_writable, is_replaced, refuse_to_replace, write_atomically

@@ -1,7 +1,7 @@
 """The core with AXI streams as a package: everything that a design needs to use it."""
 
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -10,8 +10,9 @@ from peakrdl_cheader.exporter import CHeaderExporter
 from peakrdl_markdown import MarkdownExporter
 
 from softdepth.export.bench import bench
-from softdepth.export.component import CLOCK, component
+from softdepth.export.component import component
 from softdepth.export.litex_module import litex_module
+from softdepth.export.streams import CLOCK, streams_of
 from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.text.rtlil import ports_of
 from softdepth.hdl.verilog import to_verilog
@@ -45,7 +46,7 @@ def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str
         "config": config,
         "ports": ports,
         "defined": defined,
-        "clocks": clocks_of(ports),
+        "clocks": clocked(ports),
         "version": version("softdepth"),
         "period": f"{PERIOD:.3f}",
         "half": f"{PERIOD / 2:.3f}",
@@ -71,16 +72,20 @@ def axi_package(config: Config, name: str, options: AxiOptions) -> dict[str, str
         return written | {HEADER: header.read_text(), PAGE: page.read_text()}
 
 
-def clocks_of(ports: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def clocked(ports: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """The clocks among the ports, and by direction which ports are synchronous to each, for constraints.
 
-    A stream that has an ``aclk`` is synchronous to that, all else to the core's.
+    All ports but those of streams are synchronous to the core's.
     """
-    names = sorted((p["name"] for p in ports if p["name"].endswith(CLOCK)), key=len)
-    found: dict[str, dict[str, Any]] = {name: {"name": name, "inputs": [], "outputs": []} for name in names}
+    streams = streams_of(ports)
+    clock_of = {port: each.clock for each in streams for port in each.ports.values()}
+    found: dict[str, dict[str, Any]] = {
+        name: {"name": name, "inputs": [], "outputs": []}
+        for name in dict.fromkeys([CLOCK, *(each.clock for each in streams)])
+    }
     for port in ports:
         if port["name"] not in found:
-            own = [name for name in names if port["name"].startswith(name.removesuffix(CLOCK))]
             text = port["name"] + ("*" if port["width"] > 1 else "")
-            found[own[-1]]["inputs" if port["direction"] == "in" else "outputs"].append(text)
+            way = "inputs" if port["direction"] == "in" else "outputs"
+            found[clock_of.get(port["name"], CLOCK)][way].append(text)
     return list(found.values())

@@ -6,7 +6,7 @@ from importlib.metadata import version
 from typing import Any
 
 from softdepth.export.bench_frames import FRAMES, bench_frames
-from softdepth.hdl.axi.inputs import VIEWS
+from softdepth.export.streams import streams_of
 from softdepth.hdl.axi.tdata import outcome_layout, pair_bits
 from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
@@ -35,7 +35,7 @@ def bench(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[s
     ----------
     ports : of the core, each with its name, direction (``in``, ``out``) and width.
     """
-    frames = bench_frames(config)
+    frames = bench_frames(config, left=options.left)
     described = {register.name: register for register in registers(config, options)}
     size = frames.height << _low(described["GEOMETRY"], "geometry_height")
     seen = size | frames.width << _low(described["SEEN"], "seen_width")
@@ -72,13 +72,13 @@ def bench(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[s
         version=version("softdepth"),
         ports=ports,
         bus=options.bus,
-        streams=streams(config, options),
+        streams=inputs(config, ports),
         frames=frames,
         count=FRAMES,
         patience=frames.height * (frames.width + config.disparities) * config.steps + SLACK,
         bits={
             "s_axis": pair_bits(config.pixel),
-            "m_axis": outcome_layout(config).size,
+            "m_axis": outcome_layout(config, left=options.left).size,
             "address": max(each.address for each in described.values()).bit_length(),
         },
         before=before,
@@ -91,14 +91,17 @@ def bench(config: Config, name: str, options: AxiOptions, ports: Sequence[dict[s
     }
 
 
-def streams(config: Config, options: AxiOptions) -> list[dict[str, Any]]:
+def inputs(config: Config, ports: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """The inputs: prefix and clock of each stream, and which bits of the words it takes."""
-    if not options.two:
-        return [{"prefix": "s_axis", "clock": "aclk", "low": 0, "width": pair_bits(config.pixel)}]
-    size = config.pixel.size
-    views = [{"prefix": f"s_axis_{view}", "low": k * size, "width": size} for k, view in enumerate(VIEWS)]
+    coming = [each for each in streams_of(ports) if each.sink]
+    if len(coming) == 1:
+        bits = [(0, pair_bits(config.pixel))]
+    else:
+        size = config.pixel.size
+        bits = [(number * size, size) for number in range(len(coming))]
     return [
-        {**view, "clock": f"{view['prefix']}_aclk" if options.clocks == "own" else "aclk"} for view in views
+        {"prefix": each.prefix, "clock": each.clock, "low": low, "width": width}
+        for each, (low, width) in zip(coming, bits, strict=True)
     ]
 
 

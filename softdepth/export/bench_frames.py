@@ -35,10 +35,11 @@ class BenchFrames:
     expected: str
 
 
-def bench_frames(config: Config) -> BenchFrames:
+def bench_frames(config: Config, *, left: bool = False) -> BenchFrames:
     """Textured frames with true disparities, and their results with the registers as after reset.
 
-    A missing disparity is 0 in the model, and so is ``INVALID`` after reset.
+    With `left`, results carry their pixel of the left view. A missing disparity is 0 in the model, and so is
+    ``INVALID`` after reset.
     """
     width = min(config.max_width, max(config.min_width, config.disparities) + EXTRA_WIDTH)
     height = min(config.max_height, config.min_height + EXTRA_HEIGHT)
@@ -48,18 +49,26 @@ def bench_frames(config: Config) -> BenchFrames:
         scene = synthetic.generate("random", width=width, height=height, disparities=disparities, seed=seed)
         pair = scene.as_format(config.pixel)
         sent += _marked(_pixels(pair.left, pair.right, config), pair_bits(config.pixel))
-        expected += _marked(_outcomes(pair.left, pair.right, config), outcome_layout(config).size)
+        words = _outcomes(pair.left, pair.right, config)
+        layout = outcome_layout(config, left=left)
+        if left:
+            words |= _packed(pair.left, config) << layout["left"].offset
+        expected += _marked(words, layout.size)
     return BenchFrames(width, height, _hex(sent), _hex(expected))
 
 
 def _pixels(left: Image, right: Image, config: Config) -> Words:
     """``s_axis_tdata`` of each pixel."""
+    return _packed(left, config) | _packed(right, config) << config.pixel.size
+
+
+def _packed(image: Image, config: Config) -> Words:
+    """A view's pixels in UG934's order."""
     pixel = config.pixel
-    words = np.zeros(left.shape[:2], object)
-    for number, image in enumerate((left, right)):
-        channels = image.reshape(*image.shape[:2], pixel.channels).astype(object)
-        for place, channel in enumerate(CHANNELS[pixel.channels]):
-            words |= channels[..., channel] << number * pixel.size + place * pixel.bits
+    channels = image.reshape(*image.shape[:2], pixel.channels).astype(object)
+    words = np.zeros(image.shape[:2], object)
+    for place, channel in enumerate(CHANNELS[pixel.channels]):
+        words |= channels[..., channel] << place * pixel.bits
     return words
 
 

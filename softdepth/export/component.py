@@ -11,12 +11,11 @@ from typing import Any
 from peakrdl_ipxact import IPXACTExporter, Standard
 from systemrdl.node import AddrmapNode
 
+from softdepth.export.streams import CLOCK, Stream, streams_of
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config
 from softdepth.templates import render
 
-CLOCK = "aclk"
-STREAM = re.compile(r"(\w+)_(tdata|tvalid|tready|tuser|tlast)")
 WISHBONE = {
     "cyc": "CYC_I",
     "stb": "STB_I",
@@ -78,23 +77,24 @@ def component(
 
 def _interfaces(bus: Bus, ports: Sequence[dict[str, Any]]) -> list[Interface]:
     """Streams, the registers' bus, clock, reset and interrupt, by the definitions of AMD's tools."""
-    found: dict[str, Interface] = {}
-    for port in ports:
-        if match := STREAM.fullmatch(port["name"]):
-            prefix, signal = match.groups()
-            role = "slave" if prefix.startswith("s_") else "master"
-            found.setdefault(prefix, Interface(prefix, role, "axis", {})).ports[signal.upper()] = port["name"]
-    found |= {each.name: each for each in (_bus(bus, [port["name"] for port in ports]),)}
-    own = {f"{name}_{CLOCK}": name for name in found if f"{name}_{CLOCK}" in {port["name"] for port in ports}}
-    rest = [name for name in found if name not in own.values()]
+    streams = streams_of(ports)
+    registers = _bus(bus, [port["name"] for port in ports])
+    own = {each.own_clock: each.prefix for each in streams if each.own_clock}
+    rest = [*(each.prefix for each in streams if not each.own_clock), registers.name]
     clock = {"ASSOCIATED_BUSIF": ":".join(rest), "ASSOCIATED_RESET": "aresetn"}
     return [
-        *found.values(),
+        *(_stream(each) for each in streams),
+        registers,
         _signal(CLOCK, "slave", "clock", "CLK", clock),
         *(_signal(name, "slave", "clock", "CLK", {"ASSOCIATED_BUSIF": of}) for name, of in own.items()),
         _signal("aresetn", "slave", "reset", "RST", {"POLARITY": "ACTIVE_LOW"}),
         _signal("irq", "master", "interrupt", "INTERRUPT", {"SENSITIVITY": "LEVEL_HIGH"}),
     ]
+
+
+def _stream(stream: Stream) -> Interface:
+    signals = {signal.upper(): port for signal, port in stream.ports.items()}
+    return Interface(stream.prefix, "slave" if stream.sink else "master", "axis", signals)
 
 
 def _signal(name: str, role: str, type_: str, logical: str, parameters: dict[str, str]) -> Interface:

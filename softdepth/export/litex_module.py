@@ -1,39 +1,14 @@
 """The package as a LiteX module: LiteX's streams, bus and events around the exported Verilog."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
-from softdepth.export.component import CLOCK
+from softdepth.export.streams import streams_of
 from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
 from softdepth.spec.registers import registers
 from softdepth.templates import render
-
-
-@dataclass(frozen=True)
-class Stream:
-    """An AXI stream: how its ports' names begin, whether it comes in, bits of ``tdata``, its own clock."""
-
-    prefix: str
-    sink: bool
-    bits: int
-    clock: str | None
-
-
-def streams_of(ports: Sequence[dict[str, Any]]) -> list[Stream]:
-    """The streams among a core's ports, each with its name, direction (``in``, ``out``) and width."""
-    names = {port["name"] for port in ports}
-    found = []
-    for port in ports:
-        if port["name"].endswith("_tdata"):
-            prefix = port["name"].removesuffix("_tdata")
-            own = f"{prefix}_{CLOCK}"
-            found.append(
-                Stream(prefix, port["direction"] == "in", port["width"], own if own in names else None)
-            )
-    return found
 
 
 def litex_class(name: str) -> str:

@@ -61,7 +61,7 @@ class Design:
         return outcome_layout(self.config, left=self.options.left).size // 8
 
 
-ROBUST = Design(SMALL)
+ROBUST = Design(SMALL, AxiOptions(left=True))
 PAPER = Design(
     Config.preset("paper").override(
         [
@@ -69,7 +69,7 @@ PAPER = Design(
             *("compensation.reading=top", "compensation.threshold=600", "compensation.from_disparity=2"),
         ]
     ),
-    AxiOptions(inputs="two", skew=2, clocks="own"),
+    AxiOptions(inputs="two", skew=2, clocks="own", left=True),
 )
 """A core of the other kind, with a stream a view, each of its own clock."""
 ADDRESSES = ROBUST.addresses
@@ -156,9 +156,15 @@ def run(steps: Steps, folder: Path, *, seed: int = 0, idle: float = 0.0, pressur
 
 
 def expected(
-    left: Image, right: Image, config: Config = SMALL, *, floor: int = 0, invalid: int = 0
+    left: Image,
+    right: Image,
+    config: Config = SMALL,
+    *,
+    floor: int = 0,
+    invalid: int = 0,
+    pixels: bool = True,
 ) -> NDArray[np.uint64]:
-    """The words of a frame's results, of the fixed model and plain arithmetic."""
+    """The words of a frame's results, of the fixed model and plain arithmetic, with the left `pixels`."""
     result = fixed_model.disparity(left, right, config)
     code = result.code.astype(np.uint64)
     sure = np.zeros_like(code)
@@ -166,4 +172,9 @@ def expected(
         sure = result.confidence.astype(np.uint64)
         code[(code < Validity.BORDER) & (sure < floor)] = UNSURE
     value = np.where(np.isin(code, HAS_DISPARITY), result.disparity, invalid).astype(np.uint64)
-    return value | code << np.uint64(16) | sure << np.uint64(24)
+    words = value | code << np.uint64(16) | sure << np.uint64(24)
+    if pixels:
+        above = np.uint64(24 if result.confidence is None else 32)
+        for place, channel in enumerate(ORDER):
+            words |= left[..., channel].astype(np.uint64) << above + BYTE * np.uint64(place)
+    return words

@@ -1,0 +1,57 @@
+"""Where a result's pixel of the left view comes from."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from softdepth.hdl.asked import asked
+from softdepth.hdl.costs.comparison import by_windows
+from softdepth.hdl.costs.rooms import costs_of
+from softdepth.hdl.front.front import Front
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
+from softdepth.hdl.post.stages import masked_medians_of
+from softdepth.hdl.whole_latency import WholeLatency
+from softdepth.hdl.winners.band_winners import BandWinners
+from softdepth.hdl.winners.rooms import winners_of
+from softdepth.spec.config import Config
+
+Origin = Literal["results", "medians", "guard"]
+
+
+@dataclass(frozen=True)
+class LeftPixels:
+    """Of `config`'s core: as near to the results as their pixels can be had, since what lies between is kept.
+
+    Members
+    -------
+    origin : ``results`` have them up to the core's output; up to the masked ``medians``; or nothing behind
+        the ``guard`` has them: those of windows of pixels, and where the views' overlap is moved.
+    places : pixels that are kept at a time, at least: as many as come in before the first one's result is
+        there, at full rate. With fewer than the result waits for, the core would wait for itself.
+    """
+
+    origin: Origin
+    places: int
+
+    @classmethod
+    def of(cls, config: Config) -> "LeftPixels":
+        """Derived from what the core's blocks state."""
+        width = config.max_width
+        if by_windows(config):
+            with asked():
+                winners = winners_of(config, costs_of(config, Front(config).layout))
+            assert isinstance(winners, BandWinners)
+            seen = config.reach_rows * width + config.reach_right
+            return cls("guard", seen + _during(Front.latency + winners.latency, config.steps))
+        if config.min_disparity:
+            whole = WholeLatency.of(config)
+            return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))
+        if reach := config.post.masked_median:
+            with asked():
+                stage = masked_medians_of(config)
+            return cls("medians", reach * width + reach + _during(stage.latency, stage.clocks))
+        return cls("results", 0)
+
+
+def _during(clocks: int, steps: int) -> int:
+    """Pixels that may come in so many clocks, and in those that a result waits for at the core's end."""
+    return -(-(clocks + QUEUE_LATENCY) // steps) + Front.places + 1

@@ -1,7 +1,8 @@
 """The bench of the AXI core: sources, sinks and masters are cocotbext-axi's. `tests.axi.runs` starts it.
 
 What is to be sent is a list of steps: lines of video, and writes to registers between them. Two streams have
-theirs each, which go out side by side after the others.
+theirs each, which go out side by side after the others. Before that, the core may be reset any number of
+times, each while it takes in other lines and writes.
 """
 
 import json
@@ -67,8 +68,6 @@ async def run(dut: Any) -> None:
     await RisingEdge(dut.aclk)
     sink.set_pause_generator(pauses(Random(job["seed"] + 2), job["pressure"]))
 
-    reads: dict[str, int] = {}
-
     async def chatter() -> None:
         """Reads of any register at any time."""
         while True:
@@ -78,17 +77,43 @@ async def run(dut: Any) -> None:
 
     talk = cocotb.start_soon(chatter())
 
+    def frame_of(view: str, step: dict[str, Any]) -> AxiStreamFrame:
+        data = bytes.fromhex(step["line"])
+        user = [int(k // sources[view].byte_lanes in step["sof"]) for k in range(len(data))]
+        return AxiStreamFrame(data, tuser=user)
+
+    async def registers() -> dict[str, int]:
+        found = {}
+        for name, address in job["registers"].items():
+            found[name] = int.from_bytes((await master.read(address, 4)).data, "little")
+        return found
+
+    after_resets = []
+    for clocks in job["resets"]:
+        for view, steps in job["cut"].items():
+            for step in steps:
+                if "write" in step:
+                    address, value = step["write"]
+                    cocotb.start_soon(master.write(address, value.to_bytes(4, "little")))
+                else:
+                    sources[view].send_nowait(frame_of(view, step))
+        await ClockCycles(dut.aclk, clocks)
+        dut.aresetn.value = 0
+        await ClockCycles(dut.aclk, random.randrange(1, 4))
+        for each in (*sources.values(), sink):
+            each.clear()
+        dut.aresetn.value = 1
+        await RisingEdge(dut.aclk)
+        after_resets.append(await registers())
+
     async def act(view: str) -> None:
         source = sources[view]
-        lanes = source.byte_lanes
         for step in job["views"][view]:
             if "write" in step:
                 address, value = step["write"]
                 await master.write(address, value.to_bytes(4, "little"))
                 continue
-            data = bytes.fromhex(step["line"])
-            user = [int(k // lanes in step["sof"]) for k in range(len(data))]
-            await source.send(AxiStreamFrame(data, tuser=user))
+            await source.send(frame_of(view, step))
             await source.wait()
 
     acting = [cocotb.start_soon(act(view)) for view in sources]
@@ -105,6 +130,5 @@ async def run(dut: Any) -> None:
     for task in (talk, *acting):
         task.cancel()
     irq = int(dut.irq.value)
-    for name, address in job["registers"].items():
-        reads[name] = int.from_bytes((await master.read(address, 4)).data, "little")
-    path.with_suffix(".out").write_text(json.dumps({"lines": lines, "registers": reads, "irq": irq}))
+    out = {"lines": lines, "registers": await registers(), "irq": irq, "after_resets": after_resets}
+    path.with_suffix(".out").write_text(json.dumps(out))

@@ -1,6 +1,7 @@
 """Runs of the AXI core in Verilator, and what must come out."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -113,24 +114,45 @@ class Steps:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came out: frames of the words of ``m_axis_tdata``, registers, and ``irq``."""
+    """What came out: frames of the words of ``m_axis_tdata``, registers, ``irq``, registers after resets."""
 
     frames: list[NDArray[np.uint64]]
     registers: dict[str, int]
     irq: int
+    after_resets: list[dict[str, int]]
 
 
 @cache
 def program(design: Design) -> Path:
     """The simulated core."""
-    core = AxiCore(design.config, design.options)
-    ports = ports_of(core)
+    return built(design, to_verilog(AxiCore(design.config, design.options), TOP))
+
+
+def built(design: Design, verilog: str) -> Path:
+    """What has the ports of a design's core, simulated."""
+    ports = ports_of(AxiCore(design.config, design.options))
     names = {way: [p.name for p in ports if p.flow.name == way] for way in ("In", "Out")}
-    return build(to_verilog(core, TOP), inputs=names["In"], outputs=names["Out"]).folder
+    return build(verilog, inputs=names["In"], outputs=names["Out"]).folder
 
 
-def run(steps: Steps, folder: Path, *, seed: int = 0, idle: float = 0.0, pressure: float = 0.0) -> Outcome:
-    """Runs the bench; frames must be whole."""
+def run(
+    steps: Steps,
+    folder: Path,
+    *,
+    seed: int = 0,
+    idle: float = 0.0,
+    pressure: float = 0.0,
+    resets: Sequence[int] = (),
+    cut: Steps | None = None,
+    core: Path | None = None,
+) -> Outcome:
+    """Runs the bench; frames must be whole.
+
+    Parameters
+    ----------
+    resets, cut : before anything else, steps that are ended by a reset after so many clocks, once for each.
+    core : the program, if not that of the design's own Verilog.
+    """
     path = folder / "job.json"
     design, size = steps.design, steps.design.result_bytes
     job = {
@@ -138,10 +160,12 @@ def run(steps: Steps, folder: Path, *, seed: int = 0, idle: float = 0.0, pressur
         "idle": idle,
         "pressure": pressure,
         "views": steps.views,
+        "resets": list(resets),
+        "cut": cut.views if cut else {},
         "registers": design.addresses,
     }
     path.write_text(json.dumps(job))
-    ended = simulate(program(design), "tests.axi.bench", folder, {JOB_VARIABLE: str(path)})
+    ended = simulate(core or program(design), "tests.axi.bench", folder, {JOB_VARIABLE: str(path)})
     out = path.with_suffix(".out")
     assert ended, (folder / "log").read_text()[-2000:]
     came = json.loads(out.read_text())
@@ -152,7 +176,8 @@ def run(steps: Steps, folder: Path, *, seed: int = 0, idle: float = 0.0, pressur
             frames.append([])
         found = np.frombuffer(bytes.fromhex(line["data"]), np.uint8).reshape(-1, size).astype(np.uint64)
         frames[-1].append(np.bitwise_or.reduce(found << BYTE * np.arange(size, dtype=np.uint64), axis=1))
-    return Outcome([np.stack(frame) for frame in frames], came["registers"], came["irq"])
+    whole = [np.stack(frame) for frame in frames]
+    return Outcome(whole, came["registers"], came["irq"], came["after_resets"])
 
 
 def expected(

@@ -69,8 +69,9 @@ def check(name: str, *, o_rate: float = 1.0) -> Transfers:
     return found
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CORES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.full if name != "windows" else ()) for name in CORES]
+)
 def test_each_result_has_its_pixel_and_none_waits_for_it(name: str) -> None:
     """At full rate the core takes and gives in the same clocks as without; frames are as wide as can be."""
     assert LeftPixels.of(CORES[name][1]).origin == CORES[name][0]
@@ -79,16 +80,13 @@ def test_each_result_has_its_pixel_and_none_waits_for_it(name: str) -> None:
     assert found.given == plain(name).given
 
 
-@pytest.mark.parametrize("name", ["windows", "medians"])
-def test_results_that_are_held_back(name: str) -> None:
-    check(name, o_rate=0.2)
+def test_results_that_are_held_back() -> None:
+    check("windows", o_rate=0.2)
 
 
 def test_too_few_places_make_the_core_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A line less than is stated, and it waits for itself."""
-    config = CORES["windows"][1]
-    stated = LeftPixels.of(config)
-    less = LeftPixels(stated.origin, stated.places - config.max_width)
+    """With a quarter of a line it waits for itself."""
+    less = LeftPixels("guard", CORES["windows"][1].max_width // 4)
     monkeypatch.setattr(core_module.LeftPixels, "of", lambda _: less)
     with pytest.raises(AssertionError, match="inputs were taken"):
         check("windows")

@@ -27,10 +27,13 @@ async def run(dut: Any) -> None:
     path = Path(os.environ[JOB_VARIABLE])
     job = json.loads(path.read_text())
     cocotb.start_soon(Clock(dut.clock, 10, unit="ns").start())
-    source = AxiStreamSource(AxiStreamBus.from_prefix(dut, "s_axis"), dut.clock, dut.reset)
+    sources = {
+        prefix: AxiStreamSource(AxiStreamBus.from_prefix(dut, prefix), dut.clock, dut.reset)
+        for prefix in job["streams"]
+    }
     sink = AxiStreamSink(AxiStreamBus.from_prefix(dut, "m_axis"), dut.clock, dut.reset)
     host = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "host"), dut.clock, dut.reset)
-    for each in (source, sink, host.write_if, host.read_if):
+    for each in (*sources.values(), sink, host.write_if, host.read_if):
         each.log.setLevel("WARNING")
 
     async def read(address: int) -> int:
@@ -43,13 +46,13 @@ async def run(dut: Any) -> None:
     found: dict[str, Any] = {"before": [await read(address) for address in job["before"]]}
     for address, value in job["writes"]:
         await host.write(address, value.to_bytes(4, "little"))
-    lanes = len(dut.s_axis_tdata) // BYTE
-    for line in job["lines"]:
-        data = bytes.fromhex(line["data"])
-        user = [int(line["sof"] and k < lanes) for k in range(len(data))]
-        await source.send(AxiStreamFrame(data, tuser=user))
+    for prefix, source in sources.items():
+        for line in job["streams"][prefix]:
+            data = bytes.fromhex(line["data"])
+            user = [int(line["sof"] and k < source.byte_lanes) for k in range(len(data))]
+            await source.send(AxiStreamFrame(data, tuser=user))
     found["lines"] = []
-    for _ in job["lines"]:
+    for _ in range(job["lines"]):
         got = await sink.recv()
         user = got.tuser if isinstance(got.tuser, list) else [got.tuser]
         found["lines"].append({"data": bytes(got.tdata).hex(), "sof": bool(user[0])})

@@ -14,14 +14,14 @@ from tests.support.fusesoc import fusesoc
 from tests.support.icarus import needs_icarus
 
 SIZE = ["max_width=64", "max_height=48", "disparities=8", "lanes=4"]
-TWO = AxiOptions(inputs="two", clocks="own")
+TWO = AxiOptions(inputs="two", clocks="own", left=True)
 CORES: dict[str, tuple[Config, AxiOptions]] = {
     "sad": (Config.preset("sad").override(SIZE), DEFAULT),
     "negative": (Config.preset("sad").override([*SIZE, "min_disparity=-3", "pixel=rgb10"]), TWO),
     # Sixteenths, confidence, check, island, filling and both medians.
     "robust": (
         Config.preset("robust-small").override([*SIZE, "pixel=gray12", "disparities=4"]),
-        AxiOptions(bus="wishbone"),
+        AxiOptions(bus="wishbone", left=True),
     ),
 }
 BROKEN = {

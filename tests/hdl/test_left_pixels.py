@@ -43,7 +43,6 @@ CORES: dict[str, tuple[str, Config]] = {
     ),
 }
 FRAMES = [textured(6, 16, 1), textured(4, 11, 2), textured(2, 16, 3)]
-PIXELS = [pixel for left, _ in FRAMES for pixel in pack_frame(left, left).tolist()]
 PAYLOADS = [pixel for pair in FRAMES for pixel in pack_frame(*pair).tolist()]
 PATIENCE = 600
 
@@ -92,10 +91,27 @@ def test_too_few_places_make_the_core_wait(monkeypatch: pytest.MonkeyPatch) -> N
         check("windows")
 
 
-@pytest.mark.parametrize(("old", "new"), [(" & ~bare", ""), ("& self.o.ready & ~bare", "& ~bare")])
-def test_a_pixel_too_many_is_found(monkeypatch: pytest.MonkeyPatch, old: str, new: str) -> None:
-    """Of an end that bears none; of one that waits."""
-    monkeypatch.setattr("softdepth.hdl.front.front.Kept", mutated(Kept, old, new))
+def check_unmarked() -> None:
+    """Frames that end as the next one starts: by an item without a pixel."""
+    pixels = [pixel for pair in FRAMES for pixel in pack_frame(*pair, eof=False).tolist()]
+    found = stream_through(StereoCore(CORES["windows"][1], left=True), pixels, patience=PATIENCE)
+    whole = sum(len(left) * len(left[0]) for left, _ in FRAMES[:-1])
+    assert len(found.payloads) >= whole
+    assert [result.left for result in found.payloads] == lefts(pixels)[: len(found.payloads)]
+
+
+def test_ends_without_a_pixel() -> None:
+    check_unmarked()
+
+
+def test_a_pixel_of_an_end_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("softdepth.hdl.front.front.Kept", mutated(Kept, " & ~bare", ""))
+    with pytest.raises(AssertionError):
+        check_unmarked()
+
+
+def test_a_pixel_that_is_kept_while_it_waits_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("softdepth.hdl.front.front.Kept", mutated(Kept, "& self.o.ready & ~bare", "& ~bare"))
     with pytest.raises(AssertionError):
         check("windows", o_rate=0.2)
 

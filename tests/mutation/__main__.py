@@ -10,9 +10,9 @@ from pathlib import Path
 
 from softdepth.ending import ended
 from softdepth.files import write_atomically
-from softdepth.flow.tools import find_tool
 from softdepth.sources import sources_hash
 from softdepth.studies import markers
+from tests.mutation.netlist import yosys_of_faults
 from tests.mutation.page import PART, page, rate
 from tests.mutation.study import study
 
@@ -30,7 +30,7 @@ def main() -> int:
         found[name] = outcomes = study(name, count)
         print(f"{name}: {rate(outcomes):.1%} of {count} faults are found")
     day = datetime.now(tz=UTC).date()
-    measured = f"{day}, gateware {sources_hash('hdl')[:12]}, {find_tool('yosys').version.partition(' (')[0]}"
+    measured = f"{day}, gateware {sources_hash('hdl')[:12]}, {yosys_of_faults().version}"
     text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), PART, page(found, measured))
     write_atomically(DOCUMENT, text.encode())
     everything = [outcome for outcomes in found.values() for outcome in outcomes]

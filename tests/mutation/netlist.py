@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from softdepth.flow.tools import find_tool
+from softdepth.flow.tools import Tool, find_tool
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.text.rtlil import CLOCK, to_rtlil
 from softdepth.sim.build import TOP
@@ -46,7 +46,7 @@ class Mutant:
     number : the value that selects it.
     block : the instances that the cell is in, as ``front.guard``; empty where yosys made it of several.
     file, code : the file of the gateware, or of its library, that made the cell, and the line; or empty.
-    what : the cell, its port and bit, and what is wrong there.
+    what : the cell, its port and bit, the signal and bit that this is where it has a name, and what is wrong.
     """
 
     number: int
@@ -65,6 +65,11 @@ class Mutant:
         return f"{self.block or 'merged'}: {self.code or '(several lines)'}: {self.what}"
 
 
+def yosys_of_faults() -> Tool:
+    """The yosys that draws faults: the locked one, as each version draws others."""
+    return find_tool("yosys", own=False)
+
+
 def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[str, list[Mutant]]:
     """Verilog of the core with `count` faults to choose from, and what they are.
 
@@ -72,7 +77,7 @@ def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[st
     nothing reads, of a constant at its own value, of a bit turned by a constant; and those of clocks.
     """
     (folder / "core.il").write_text(to_rtlil(StereoCore(config), TOP, sources=True))
-    yosys = find_tool("yosys")
+    yosys = yosys_of_faults()
     drawn = f"mutate -list {SPARE * count} -seed {seed} -ctrl {FAULTS} {SELECT_BITS} 1 -o drawn"
     script = f"{PREPARED}; write_rtlil flat.il; write_json flat.json; {drawn}"
     yosys.run(["-q", "-l", "log", "-p", script], folder, log="log")
@@ -117,6 +122,9 @@ def _changes(cell: dict[str, Any], options: dict[str, str], read: set[Any]) -> b
 def _described(number: int, options: dict[str, str], kind: str, sources: list[str]) -> Mutant:
     mode = MODES[options["-mode"]].format(ctrlbit=options.get("-ctrlbit", ""))
     wire = options.get("-wire", "")
+    # The signal is what a fault is known by: bits of ports are numbered anew where yosys splits cells.
+    leaf = wire.removeprefix("\\").split(".")[-1].removeprefix("\\")
+    signal = f" ({leaf}[{options['-wirebit']}])" if leaf else ""
     # Amaranth numbers names that are there twice, yosys puts a backslash before each.
     path = options["-cell"].removeprefix("$flatten").replace("\\", "")
     block = ".".join((path if path != options["-cell"] else wire).split(".")[:-1])
@@ -129,6 +137,6 @@ def _described(number: int, options: dict[str, str], kind: str, sources: list[st
     return Mutant(
         number,
         block=re.sub(r"\$\d+", "", block),
-        what=f"{kind} {options['-port']}[{options['-portbit']}] {mode}",
+        what=f"{kind} {options['-port']}[{options['-portbit']}]{signal} {mode}",
         **place,
     )

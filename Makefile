@@ -42,7 +42,7 @@ soak: $(READY) ## 1,000 random frames through the AXI core, registers written in
 	@SOFTDEPTH_SOAK=$(or $(FRAMES),1000) $(BIN)/pytest -q tests/axi -k random_frames
 
 formal: $(READY) ## every proof, at its full depth: docs/verification.md says of what
-	@$(BIN)/pytest -n auto --dist worksteal -m formal tests/hdl
+	@$(BIN)/python -m tests.formal -n auto --dist worksteal $(ARGS)
 
 mutation: $(READY) ## faults in small cores, and which the quick regression finds: docs/verification.md
 	@$(BIN)/python -m tests.mutation

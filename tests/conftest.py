@@ -1,9 +1,12 @@
 """Fixtures that every test may use."""
 
 import os
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+
+from tests.support.proofs import SAID
 
 
 @pytest.fixture(scope="session")
@@ -39,3 +42,14 @@ def cases_dir() -> Path:
 def project() -> Path:
     """The project's own folder."""
     return Path(__file__).resolve().parent.parent
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None]:
+    """A proof must go as deep as its claim says."""
+    SAID.clear()
+    yield
+    if mark := item.get_closest_marker("proves"):
+        assert SAID, "nothing was proven"
+        for depth in SAID:
+            assert depth in mark.args[0].depth, f"proven is '{depth}', claimed '{mark.args[0].depth}'"

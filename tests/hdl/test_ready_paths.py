@@ -25,6 +25,8 @@ from softdepth.hdl.post.median import Median
 from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
+from tests.support.claims import Claim
+from tests.support.proofs import SAID
 from tests.support.simulation import sad
 
 pytestmark = pytest.mark.formal
@@ -35,6 +37,7 @@ CLOCKED = ("dff", "sdff", "adff", "dffe", "sdffe", "sdffce", "adffe", "aldff", "
 def listeners(dut: Component, folder: Path, source: str) -> set[str]:
     """The output ports that a port reaches through logic alone, as yosys knows the flattened block."""
     (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
+    SAID.append("structure")
     script = "read_rtlil dut.il; hierarchy -top dut; proc; flatten; opt_clean; write_json dut.json"
     find_tool("yosys").run(["-q", "-l", "log", "-p", script], folder, log="log")
     module = json.loads((folder / "dut.json").read_text())["modules"]["dut"]
@@ -95,17 +98,45 @@ CORES = {
 }
 
 
+OUTPUTS = Claim(
+    "no output of a core depends on its `o.ready` through logic alone, `i.ready` included; nor one of the"
+    " core with"
+    " AXI streams, of one stream in or two, on `m_axis_tready`",
+    sizes="a small core with and one without a border band",
+    depth="structure",
+)
+STAGES = Claim(
+    "what a block offers does not depend on whether it is taken: the input, descriptors, frame ends, and"
+    " every stage"
+    " of `post`",
+    sizes="small",
+    depth="structure",
+)
+
+
 def small(name: str) -> Config:
     return Config.from_dict({"max_width": 32, "max_height": 32, **CORES[name]})
 
 
+@OUTPUTS.proven
 @pytest.mark.parametrize("name", CORES)
 def test_no_output_of_a_core_listens_to_ready(name: str, tmp_path: Path) -> None:
     assert not listeners(StereoCore(small(name)), tmp_path, "o_ready")
 
 
-def test_an_offer_that_waits_for_ready_is_found(tmp_path: Path) -> None:
-    assert listeners(Waiting(), tmp_path, "o_ready") == {"o_valid"}
+@OUTPUTS.refuted
+@pytest.mark.parametrize("block", [pytest.param(Waiting, id="an offer waits for ready")])
+def test_an_offer_that_waits_for_ready_is_found(block: type[Component], tmp_path: Path) -> None:
+    assert listeners(block(), tmp_path, "o_ready") == {"o_valid"}
+
+
+@STAGES.refuted
+@pytest.mark.parametrize("block", [pytest.param(Waiting, id="an offer waits for ready")])
+def test_a_stage_that_waits_for_ready_is_found(block: type[Component], tmp_path: Path) -> None:
+    assert not listeners(block(), tmp_path, "o_ready") <= {"i_ready"}
+
+
+def test_a_queue_listens_to_no_ready(tmp_path: Path) -> None:
     assert not listeners(ItemQueue(2), tmp_path, "o_ready")
 
 
@@ -121,12 +152,14 @@ BLOCKS: dict[str, Callable[[], Component]] = {
 }
 
 
+@STAGES.proven
 @pytest.mark.parametrize("name", BLOCKS)
 def test_no_offer_of_a_block_listens_to_ready(name: str, tmp_path: Path) -> None:
     """Where a block is one register, its `i.ready` may listen; what it offers never does."""
     assert listeners(BLOCKS[name](), tmp_path, "o_ready") <= {"i_ready"}
 
 
+@OUTPUTS.proven
 @pytest.mark.parametrize("options", [AxiOptions(), AxiOptions("wishbone", inputs="two", left=True)])
 def test_no_axi_output_listens_to_ready(options: AxiOptions, tmp_path: Path) -> None:
     assert not listeners(AxiCore(small("band"), options), tmp_path, "m_axis_tready")

@@ -25,10 +25,15 @@ def mutated_guard(file: str, old: str, new: str) -> type:
     return modules[FRAME_GUARD].__dict__["FrameGuard"]
 
 
-def mutated(block: type, old: str, new: str) -> Any:
-    """`block` of its module's text with ``new`` in place of ``old``, which is there once."""
+def mutated(block: type, *texts: str) -> Any:
+    """`block` of its module's text with the second text in place of the first, which is there once.
+
+    And with the fourth in that of the third, and so on.
+    """
     text = inspect.getsource(sys.modules[block.__module__])
-    assert text.count(old) == 1, f"'{old}' is no longer in {block.__module__}, or more than once"
+    for old, new in zip(texts[::2], texts[1::2], strict=True):
+        assert text.count(old) == 1, f"'{old}' is no longer in {block.__module__}, or more than once"
+        text = text.replace(old, new)
     module = ModuleType(f"mutated_{block.__name__}")
-    exec(compile(text.replace(old, new), module.__name__, "exec"), module.__dict__)
+    exec(compile(text, module.__name__, "exec"), module.__dict__)
     return getattr(module, block.__name__)

@@ -13,6 +13,7 @@ from amaranth.lib import data
 from amaranth.lib.wiring import Component, In
 
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from tests.support.claims import Claim
 from tests.support.mutations import mutated
 from tests.support.proofs import late, looked_up, pipeline_proof, proof
 
@@ -24,6 +25,20 @@ LAYOUTS = {
     "fractions": candidate_layout(NUM, DEN, INDICES),
     "numbers": candidate_layout(NUM, NO_DEN, INDICES),
 }
+
+
+TREE = Claim(
+    "the argmin tree gives the smallest fraction, of equal ones the smallest index, and an excluded one"
+    " only where all"
+    " are; 1 / 0 loses against any other",
+    sizes="3 and 4 fractions of 3 and 2 bits, 5 numbers of 3 bits",
+    depth="every run",
+)
+SEQUENCE = Claim(
+    "the argmin sequence does the same, with pauses between candidates and indices in any order",
+    sizes="2 fractions, 4 numbers, in any number of sequences",
+    depth="12 clocks",
+)
 
 
 def _ranks() -> dict[tuple[int, ...], int]:
@@ -123,12 +138,14 @@ class Sequence(Component):
         return m
 
 
+@TREE.proven
 @pytest.mark.parametrize(("plain", "count"), [(True, 5), (False, 3), (False, 4)])
 def test_the_tree_finds_the_best_in_every_run(plain: bool, count: int, tmp_path: Path) -> None:
     dut = Tree(ArgminTree, plain, count)
     assert pipeline_proof(dut, tmp_path, dut.latency) == "every run"
 
 
+@SEQUENCE.proven
 @pytest.mark.parametrize(("layout", "count", "clocks"), [("numbers", 4, 12), ("fractions", 2, 12)])
 def test_the_sequence_finds_the_best(layout: str, count: int, clocks: int, tmp_path: Path) -> None:
     dut = Sequence(ArgminSequence, layout, count)
@@ -156,12 +173,14 @@ TREE_FAULTS = {
 }
 
 
+@SEQUENCE.refuted
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_in_the_sequence_is_refuted(fault: str, tmp_path: Path) -> None:
     dut = Sequence(mutated(ArgminSequence, *FAULTS[fault]), "fractions", 2)
     assert proof(dut, tmp_path, clocks=12, induction=False) == "refuted"
 
 
+@TREE.refuted
 @pytest.mark.parametrize("fault", TREE_FAULTS)
 def test_a_fault_in_the_tree_is_refuted(fault: str, tmp_path: Path) -> None:
     dut = Tree(mutated(ArgminTree, *TREE_FAULTS[fault]), False, 3)

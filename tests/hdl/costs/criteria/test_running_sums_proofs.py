@@ -8,6 +8,7 @@ from amaranth.hdl import Array, Assert, Assume, Module, Mux, Signal
 from amaranth.lib.wiring import Component, In
 
 from softdepth.hdl.costs.criteria.running_sums import RunningSums
+from tests.support.claims import Claim
 from tests.support.mutations import mutated
 from tests.support.proofs import late, proof
 
@@ -15,6 +16,13 @@ pytestmark = pytest.mark.formal
 
 LARGEST, MOST, APART = 3, 7, 6
 CLOCKS = 18
+
+
+SUMS = Claim(
+    "a running sum is the sum of what entered its column minus what left it, from the frame's first row on",
+    sizes=f"{APART} places, sums of 3 bits",
+    depth=f"{CLOCKS} clocks",
+)
 
 
 class Summed(Component):
@@ -71,13 +79,20 @@ class Summed(Component):
         return m
 
 
+@SUMS.proven
 def test_a_running_sum_is_the_sum_of_what_came_less_what_went(tmp_path: Path) -> None:
     dut = Summed(RunningSums)
     assert proof(dut, tmp_path, clocks=CLOCKS, induction=False) == "runs of some clocks"
 
 
-def test_a_fault_is_refuted(tmp_path: Path) -> None:
-    broken = mutated(RunningSums, "before.eq(Mux(begins[3], 0, read[name]))", "before.eq(read[name])")
-    assert proof(Summed(broken), tmp_path, clocks=CLOCKS, induction=False) == "refuted"
-    broken = mutated(RunningSums, "memory.write_at.eq(place[5])", "memory.write_at.eq(place[4])")
+FAULTS = {
+    "a frame begins at no zero": ("before.eq(Mux(begins[3], 0, read[name]))", "before.eq(read[name])"),
+    "written at another place": ("memory.write_at.eq(place[5])", "memory.write_at.eq(place[4])"),
+}
+
+
+@SUMS.refuted
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_refuted(fault: str, tmp_path: Path) -> None:
+    broken = mutated(RunningSums, *FAULTS[fault])
     assert proof(Summed(broken), tmp_path, clocks=CLOCKS, induction=False) == "refuted"

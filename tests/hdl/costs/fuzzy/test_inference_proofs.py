@@ -13,6 +13,7 @@ from softdepth.hdl.costs.fuzzy.cell_inference import CellInference
 from softdepth.hdl.costs.fuzzy.rule_array import RuleArray
 from softdepth.spec.config import Config
 from softdepth.spec.rules import rule_base
+from tests.support.claims import Claim
 from tests.support.expected import fraction, theta_2
 from tests.support.mutations import mutated
 from tests.support.proofs import largest, late, looked_up, pipeline_proof
@@ -22,6 +23,23 @@ pytestmark = pytest.mark.formal
 
 BITS = 2
 LABEL_BITS = 4
+
+
+INFERENCE = Claim(
+    "the whole inference of MIN and PROD by cell, of MEAN, soft-min I and soft-min II with all rules and"
+    " by cell:"
+    " numerator and denominator are those of the table",
+    sizes="memberships in quarters, all criteria from 0 to beyond 2T",
+    depth="every run",
+)
+RULES = Claim(
+    "the rule array of MEAN, soft-min I and II, and II as a maximum gives each conclusion as the maximum"
+    " over its"
+    " rules, of any memberships; the rules as printed, and MEAN's corrected ones (the others' with `make"
+    " formal`)",
+    sizes="memberships in quarters, of soft-min I in eighths too, as its softness does not show in quarters",
+    depth="every run",
+)
 
 
 def small(**keys: Any) -> Config:
@@ -81,6 +99,7 @@ MAXIMA = [(4 << LABEL_BITS) - 1] * 3
 LONG = {"soft_min_1 by cell", "soft_min_2"}
 
 
+@INFERENCE.proven
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=pytest.mark.full if name in LONG else []) for name in INFERENCES]
 )
@@ -90,6 +109,7 @@ def test_an_inference_is_its_table(name: str, tmp_path: Path) -> None:
     assert pipeline_proof(Inferred(c, dut), tmp_path, dut.latency) == "every run"
 
 
+@INFERENCE.refuted
 def test_an_inference_with_a_fault_is_refuted(tmp_path: Path) -> None:
     c = small(**INFERENCES["min"])
     broken = mutated(
@@ -176,6 +196,7 @@ OPERATORS: dict[str, dict[str, Any]] = {
 QUICK = {"mean", "soft_min_1, softer", "soft_min_2"}
 
 
+@RULES.proven
 @pytest.mark.parametrize("rules", ["printed", pytest.param("corrected", marks=pytest.mark.full)])
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.full) for name in OPERATORS]
@@ -192,12 +213,14 @@ FAULTS = {
 }
 
 
+@RULES.refuted
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_rule_array_with_a_fault_is_refuted(fault: str, tmp_path: Path) -> None:
     dut = Fired(small(operator="mean"), mutated(RuleArray, *FAULTS[fault]))
     assert pipeline_proof(dut, tmp_path, dut.latency) == "refuted"
 
 
+@RULES.refuted
 def test_a_rule_array_of_another_operator_is_refuted(tmp_path: Path) -> None:
     softer = small(**OPERATORS["soft_min_1, softer"])
     dut = Fired(small(operator="soft_min_1", membership_bits=3), lambda _: RuleArray(softer))

@@ -1,0 +1,66 @@
+"""``python -m tests.formal``: every proof at its full depth; what passed is told in docs/verification.md.
+
+With ``--table`` the table of what is proven is renewed, and nothing is run. Other arguments are pytest's.
+"""
+
+import sys
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from softdepth.ending import ended
+from softdepth.files import write_atomically
+from softdepth.flow.tools import find_tool
+from softdepth.sources import sources_hash
+from softdepth.studies import markers
+from tests.formal.declared import DOCUMENT, PART, declared, table
+
+RUN = "proofs-run"
+SLOWEST = 3
+
+
+class Counted:
+    """What pytest says of each test: how many pass, fail, and take how long."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self.failed: list[str] = []
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.when == "call":
+            self.seconds[report.nodeid] = report.duration
+        if report.failed:
+            self.failed.append(report.nodeid)
+
+
+def main() -> int:
+    """Run the proofs, and renew both parts."""
+    arguments = sys.argv[1:]
+    text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), PART, table(declared(Path())))
+    status = 0
+    if "--table" not in arguments:
+        counted, began = Counted(), time.monotonic()
+        status = int(pytest.main(["-m", "formal", "tests/hdl", *arguments], plugins=[counted]))
+        text = markers.renew(text, str(DOCUMENT), RUN, said(counted, time.monotonic() - began))
+    write_atomically(DOCUMENT, text.encode())
+    return status
+
+
+def said(counted: Counted, seconds: float) -> str:
+    """The last run in a sentence."""
+    passed = len(counted.seconds) - len(counted.failed)
+    slow = sorted(counted.seconds.items(), key=lambda pair: -pair[1])[:SLOWEST]
+    longest = ", ".join(f"`{name.partition('::')[2]}` {taken:.0f} s" for name, taken in slow)
+    failed = "".join(f" Failed: `{name}`." for name in counted.failed)
+    day = datetime.now(tz=UTC).date()
+    return (
+        f"{day}, gateware {sources_hash('hdl')[:12]}, {find_tool('yosys').version.partition(' (')[0]}:"
+        f" {passed} of {len(counted.seconds)} tests passed in {seconds / 60:.1f} min.{failed}"
+        f" The longest: {longest}."
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(ended(main))

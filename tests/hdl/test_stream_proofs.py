@@ -30,11 +30,7 @@ BLOCKS: dict[str, Callable[[], Any]] = {
     "front": lambda: Front(config(**BAND, **SMALL)),
 }
 SIZES: dict[str, dict[str, Any]] = {
-<<<<<<< HEAD
     "fill": {"widths": range(1, 4), "heights": range(1, 3), "quiet": 9},
-=======
-    "fill": {"widths": range(1, 4), "heights": range(1, 3), "quiet": 12},
->>>>>>> c8ea59c (tests: proofs declare what they prove; ABC's checkers; medians and places of queues proven; the table is made of the tests)
     "island": {"widths": range(4, 5), "heights": range(1, 2), "quiet": 20},
     "front": {"widths": range(4, 7), "heights": range(1, 4), "quiet": 4},
 }

@@ -1,13 +1,10 @@
 """Proofs by yosys' own solver, and plain statements of arithmetic that they compare blocks with."""
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
-import pytest
-from amaranth.hdl import Array, Assert, Const, Module, Mux, Signal, Value
-from amaranth.lib.fifo import SyncFIFOBuffered
+from amaranth.hdl import Array, Const, Module, Mux, Signal, Value
 from amaranth.lib.wiring import Component
 
 from softdepth.flow.tools import find_tool
@@ -35,7 +32,7 @@ def every_run(dut: Component, folder: Path, *, without: str = "", seconds: int =
     By ABC's `pdr`, which finds its own invariants or a run that fails; `without` as of `proof`. Fails where
     it finds neither in so many seconds.
     """
-    (folder / "dut.il").write_text(_written(dut))
+    (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
     found = asked(PREPARED.format(cut=_cut(without)), folder, f"pdr,-T,{seconds}")
     SAID.append("every run" if found == "proven" else found)
     return "every run" if found == "proven" else "refuted"
@@ -43,7 +40,7 @@ def every_run(dut: Component, folder: Path, *, without: str = "", seconds: int =
 
 def some_clocks(dut: Component, folder: Path, clocks: int, *, without: str = "") -> Proof:
     """The same of every run of so many clocks from reset on, by ABC's `bmc3`."""
-    (folder / "dut.il").write_text(_written(dut))
+    (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
     found = asked(PREPARED.format(cut=_cut(without)), folder, f"bmc3,-F,{clocks + 1}", clocks)
     SAID.append(found if found == "refuted" else f"{clocks} clocks")
     return "refuted" if found == "refuted" else "runs of some clocks"
@@ -53,26 +50,6 @@ def _cut(without: str) -> str:
     return " ".join(f"delete t:{pattern};" for pattern in without.split())
 
 
-def _written(dut: Component, watched: bool = True) -> str:
-    with watched_queues() if watched else nullcontext():
-        return to_rtlil(dut, "dut")
-
-
-@contextmanager
-def watched_queues() -> Iterator[None]:
-    """Every queue that is elaborated meanwhile asserts that nothing is put into it while it is full."""
-    original = SyncFIFOBuffered.elaborate
-
-    def elaborate(self: SyncFIFOBuffered, platform: object) -> Module:
-        m = original(self, platform)
-        m.d.comb += Assert(~self.w_en | self.w_rdy)
-        return m
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(SyncFIFOBuffered, "elaborate", elaborate)
-        yield
-
-
 def proof(
     dut: Component,
     folder: Path,
@@ -80,14 +57,13 @@ def proof(
     clocks: int = CLOCKS,
     induction: bool = True,
     without: str = "",
-    watched: bool = False,
 ) -> Proof:
     """What is known of the assertions in `dut`, whose inputs are free but for its reset.
 
     They hold of every run, by induction over up to `clocks` clocks; or of every run of so many clocks from
     reset on, where induction does not close or is not tried; or there is a run in which one fails. Modules
     whose names match one of the patterns `without` are cut out, and their outputs 0: what a statement is not
-    about. Where it is `watched`, that no queue overflows is asserted as well.
+    about.
     """
     said = _solved(
         dut,
@@ -95,7 +71,6 @@ def proof(
         f"setundef -init -zero; sat -set rst 0 -maxsteps {clocks}"
         f" -tempinduct{'' if induction else '-baseonly'}",
         _cut(without),
-        watched=watched,
     )
     if said is not None and "model found for base case: FAIL" in said:
         SAID.append("refuted")
@@ -124,9 +99,9 @@ def pipeline_proof(dut: Component, folder: Path, latency: int) -> Proof:
     return "refuted"
 
 
-def _solved(dut: Component, folder: Path, script: str, cut: str = "", watched: bool = False) -> str | None:
+def _solved(dut: Component, folder: Path, script: str, cut: str = "") -> str | None:
     """What yosys says of a failed proof, None of one that did not fail."""
-    (folder / "dut.il").write_text(_written(dut, watched))
+    (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
     script = f"{PREPARED.format(cut=cut)} {script} -prove-asserts -set-assumes -verify dut"
     try:
         find_tool("yosys").run(["-q", "-l", "log", "-p", script], folder, log="log")

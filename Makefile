@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full soak formal mutation bench compare accuracy paper inspections bitstream boards program utilization savings lint format types docs lock export reading registers readme clean distclean preflight
+.PHONY: help demo test test-fast test-full soak formal mutation bench compare accuracy paper inspections bitstream boards program utilization savings pixel-a-clock lint format types docs lock export reading registers readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -78,6 +78,9 @@ compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md
 savings: $(READY) ## what savings of area and kinds of cost come to in a lane: docs/area.md
 	@$(BIN)/python -m softdepth.studies.savings
 	@$(BIN)/python -m softdepth.studies.fuzzy_lanes
+
+pixel-a-clock: $(READY) ## what robust would take at one clock per pixel: docs/area.md
+	@$(BIN)/python -m softdepth.studies.pixel_a_clock
 
 lint: $(READY) ## style, likely bugs and formatting
 	@$(BIN)/ruff check $(SOURCES)

@@ -27,13 +27,10 @@ async def run(dut: Any) -> None:
     path = Path(os.environ[JOB_VARIABLE])
     job = json.loads(path.read_text())
     cocotb.start_soon(Clock(dut.clock, 10, unit="ns").start())
-    sources = {
-        prefix: AxiStreamSource(AxiStreamBus.from_prefix(dut, prefix), dut.clock, dut.reset)
-        for prefix in job["streams"]
-    }
+    source = AxiStreamSource(AxiStreamBus.from_prefix(dut, "s_axis"), dut.clock, dut.reset)
     sink = AxiStreamSink(AxiStreamBus.from_prefix(dut, "m_axis"), dut.clock, dut.reset)
     host = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "host"), dut.clock, dut.reset)
-    for each in (*sources.values(), sink, host.write_if, host.read_if):
+    for each in (source, sink, host.write_if, host.read_if):
         each.log.setLevel("WARNING")
 
     async def read(address: int) -> int:
@@ -46,13 +43,13 @@ async def run(dut: Any) -> None:
     found: dict[str, Any] = {"before": [await read(address) for address in job["before"]]}
     for address, value in job["writes"]:
         await host.write(address, value.to_bytes(4, "little"))
-    for prefix, source in sources.items():
-        for line in job["streams"][prefix]:
-            data = bytes.fromhex(line["data"])
-            user = [int(line["sof"] and k < source.byte_lanes) for k in range(len(data))]
-            await source.send(AxiStreamFrame(data, tuser=user))
+    lanes = len(dut.s_axis_tdata) // BYTE
+    for line in job["lines"]:
+        data = bytes.fromhex(line["data"])
+        user = [int(line["sof"] and k < lanes) for k in range(len(data))]
+        await source.send(AxiStreamFrame(data, tuser=user))
     found["lines"] = []
-    for _ in range(job["lines"]):
+    for _ in job["lines"]:
         got = await sink.recv()
         user = got.tuser if isinstance(got.tuser, list) else [got.tuser]
         found["lines"].append({"data": bytes(got.tdata).hex(), "sof": bool(user[0])})

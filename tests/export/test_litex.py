@@ -59,24 +59,11 @@ def test_the_class_has_a_name_of_its_own(name: str, found: str) -> None:
     assert litex_class(name) == found
 
 
-def views(sent: list[dict]) -> dict[str, list[dict]]:
-    """Lines of both views as those of each: a pixel's lower bytes are the left one's."""
-    size = CONFIG.pixel.size // BYTE
-    found: dict[str, list[dict]] = {"s_axis_left": [], "s_axis_right": []}
-    for line in sent:
-        data = bytes.fromhex(line["data"])
-        for number, each in enumerate(found.values()):
-            own = b"".join(data[k : k + size] for k in range(number * size, len(data), 2 * size))
-            each.append({"data": own.hex(), "sof": line["sof"]})
-    return found
-
-
-def check_frames(verilog: str, addresses: dict, folder: Path, options: AxiOptions = WISHBONE) -> None:
-    """Registers through the bus of the SoC, its events' CSRs, and all streams."""
+def check_frames(verilog: str, addresses: dict, folder: Path) -> None:
+    """Registers through the bus of the SoC, its events' CSRs, and both streams."""
     base = addresses["memories"]["depth"]["base"]
     csrs = {name: each["addr"] for name, each in addresses["csr_registers"].items()}
-    frames = bench_frames(CONFIG, left=options.left)
-    sent = lines(frames.sent, pair_bits(CONFIG.pixel), frames.width)
+    frames = bench_frames(CONFIG)
     job = {
         "before": [base + ADDRESSES["IDENTITY"], csrs["depth_ev_pending"]],
         "writes": [
@@ -84,8 +71,7 @@ def check_frames(verilog: str, addresses: dict, folder: Path, options: AxiOption
             [base + ADDRESSES["INTERRUPTS"], 1],
             [csrs["depth_ev_enable"], 1],
         ],
-        "streams": views(sent) if options.two else {"s_axis": sent},
-        "lines": len(sent),
+        "lines": lines(frames.sent, pair_bits(CONFIG.pixel), frames.width),
         "after": [base + ADDRESSES["FRAMES"], base + ADDRESSES["FLAGS"], csrs["depth_ev_pending"]],
         "clear": base + ADDRESSES["FLAGS"],
     }
@@ -101,9 +87,7 @@ def check_frames(verilog: str, addresses: dict, folder: Path, options: AxiOption
     assert ended, (folder / "log").read_text()[-2000:]
     found = json.loads(path.with_suffix(".out").read_text())
     assert found["before"] == [int.from_bytes(b"SDPT", "big"), 0]
-    assert found["lines"] == lines(
-        frames.expected, outcome_layout(CONFIG, left=options.left).size, frames.width
-    )
+    assert found["lines"] == lines(frames.expected, outcome_layout(CONFIG).size, frames.width)
     assert found["after"] == [FRAMES, 1, 1]
     assert found["interrupt"] == [1, 0]
 
@@ -111,13 +95,6 @@ def check_frames(verilog: str, addresses: dict, folder: Path, options: AxiOption
 @pytest.mark.slow
 def test_frames_through_the_soc(project: Path, tmp_path: Path) -> None:
     check_frames(*soc(WISHBONE, project, tmp_path), tmp_path)
-
-
-@pytest.mark.full
-def test_frames_of_two_streams_through_the_soc(project: Path, tmp_path: Path) -> None:
-    """With the left view's pixels, and the views' clocks those of the SoC."""
-    options = AxiOptions(bus="wishbone", inputs="two", clocks="own", left=True)
-    check_frames(*soc(options, project, tmp_path), tmp_path, options)
 
 
 @pytest.mark.full

@@ -80,24 +80,24 @@ class Delay(wiring.Component):
         m.submodules.ring = ring = Memory(shape=self._shape, depth=self._depth, init=[])
         write = ring.write_port()
         read = ring.read_port()
-        # The place that is read is one ahead, so that the word is there when the next enabled clock comes.
-        written, shown = Signal(range(self._depth)), Signal(range(self._depth), init=1)
+        # The word that the next enabled clock takes away must be there when it comes.
+        written, shown = Signal(range(self._depth)), Signal(range(self._depth), init=1 if self._in_ram else 0)
         last = shown if self._in_ram else written
         following = Mux(last == self._depth - 1, 0, last + 1)
         m.d.comb += [
             write.en.eq(self.en),
             write.addr.eq(written),
             write.data.eq(self.i),
-            read.en.eq(self.en),
             read.addr.eq(shown),
             self.o.eq(read.data),
         ]
-        with m.If(self.en):
-            m.d.sync += written.eq(shown)
         if self._in_ram:
             # Nothing stands before a distributed RAM, whose word goes to registers in the same clock.
+            m.d.comb += read.en.eq(self.en)
             with m.If(self.en):
-                m.d.sync += shown.eq(following)
+                m.d.sync += [written.eq(shown), shown.eq(following)]
         else:
-            m.d.comb += shown.eq(following)
+            # Block RAM reads in every clock: where it may also pause, registers and multiplexers hold its word.
+            m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
+            m.d.sync += written.eq(shown)
         return m

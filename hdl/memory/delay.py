@@ -97,7 +97,7 @@ class Delay(wiring.Component):
             with m.If(self.en):
                 m.d.sync += [written.eq(shown), shown.eq(following)]
         else:
-            # Block RAM reads in every clock: where it may also pause, registers and multiplexers hold its word.
+            # Block RAM reads in every clock: to pause it takes registers and multiplexers that hold its word.
             m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
             m.d.sync += written.eq(shown)
         return m

@@ -12,6 +12,7 @@ from softdepth.board.device import Device
 from softdepth.board.link import Link
 from softdepth.board.port import Port
 from softdepth.golden import fixed_model
+from softdepth.spec.boards import BOARDS
 from softdepth.spec.config import Config
 from softdepth.spec.protocol import FLAG, REPLY, SIZE, Packet, Reason, Repeat, Type, decode, encode
 from tests.board.simulated import BOARD, Board, plugged_in
@@ -53,10 +54,13 @@ def test_a_clean_line(config, compute, tmp_path):
     assert board.record["led"] & (ALIVE | LOCKED | BUSY | ERROR) == ALIVE | LOCKED
 
 
-def test_a_core_without_a_border_band(compute, tmp_path):
-    """Fractions, six codes and confidence, and results that come long after the last pixel."""
-    keys = ("disparities=8", "lanes=4", "max_width=64", "max_height=64", "post.masked_median=0")
-    with plugged_in(Config.preset("robust-small").override(keys), tmp_path) as board:
+@pytest.mark.parametrize("name", ["ulx3s-85f", pytest.param("ulx3s-45f", marks=pytest.mark.full)])
+def test_a_boards_own_core_without_a_border_band(name, compute, tmp_path):
+    """Small: fractions, six codes and confidence, and results that come long after the last pixel."""
+    own = BOARDS[name].config
+    assert own.post.check
+    keys = ("disparities=8", "lanes=4", "max_width=64", "max_height=64", "post.masked_median=2")
+    with plugged_in(own.override(keys), tmp_path) as board:
         compute(board, tmp_path / "out", timeout=30)
 
 

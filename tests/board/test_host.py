@@ -140,7 +140,7 @@ def test_a_core_that_counts_damage_gives_no_result(config):
 
 
 def test_a_board_without_results_is_given_up(config):
-    assert "gave 0 of 9 lines" in failure(config, Misdeeds(never_ready=True))
+    assert "sent 0 of 9 lines" in failure(config, Misdeeds(never_ready=True))
 
 
 def test_another_configuration_is_refused_naming_both(config):

@@ -93,7 +93,7 @@ def test_a_lane_is_told_beside_its_accuracy():
     found = evaluation([(1, 2)])
     found.fuzzy, found.lanes = ["ours"], {"ours": LaneFigures(config="x", lut4=1234, ff=5, multipliers=2.25)}
     head, row = fuzzy(found).rows
-    assert dict(zip(head, row, strict=True))["LUT4 a lane"] == "1,234"
+    assert dict(zip(head, row, strict=True))["LUT4 per lane"] == "1,234"
     assert row[-1] == "2.2"
     found.lanes = {"another": found.lanes["ours"]}
     assert fuzzy(found).rows[1][-2:] == ["-", "-"]

@@ -91,7 +91,7 @@ def test_the_build_of_another_core_is_refused(builds):
     board = BOARDS["ulx3s-12f"]
     other = manifest(board).model_copy(update={"config_hash": "0123456789ab"})
     (builds / board.name / MANIFEST).write_text(other.model_dump_json())
-    with pytest.raises(InputError, match="is not of the core that is the ulx3s-12f's by default"):
+    with pytest.raises(InputError, match="is not for the ulx3s-12f's default core"):
         boards_page.manifests(builds)
 
 

@@ -51,7 +51,7 @@ class RunningSums(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.memory = memory = PackedMemory(unsigned(self._sums.size), self._places)
+        m.submodules.memory = memory = PackedMemory(unsigned(self._sums.size), self._places, registered=True)
         stored = Signal()
         m.d.comb += stored.eq(self.valid & ~self.outside)
         occurs = travelling(m, stored, 5, "stored")
@@ -62,13 +62,13 @@ class RunningSums(wiring.Component):
             for name, line in (("place", place), ("begins", begins), ("outside", outside)):
                 line.append(Signal.like(line[-1], name=f"{name}_{clock}", reset_less=True))
                 m.d.sync += line[-1].eq(line[-2])
-        # Clock 1: the memory is read. Clock 3: its word, in a register; clock 4: with what changes it.
-        read = Signal(self._sums, reset_less=True)
+        # Clock 1: the memory is read. Clock 3: its word, of registers; clock 4: with what changes it.
+        read = Signal(self._sums)
         m.d.comb += [
             memory.read.eq(occurs[1]),
             memory.read_at.eq(place[1]),
+            read.as_value().eq(memory.data),
         ]
-        m.d.sync += read.as_value().eq(memory.data)
         total = Signal(self._sums, reset_less=True)
         for name in self._sums.members:
             change = Signal((self.new[name] - self.old[name]).shape(), name=f"change_{name}", reset_less=True)

@@ -137,7 +137,8 @@ def test_a_queue_of_several_parts(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_document_tells_the_memory(project: Path) -> None:
     """Block RAMs of the default cores."""
     text = (project / "docs" / "axi.md").read_text()
-    (told,) = re.findall(r"In block RAMs of 18 kbit, at 1280 pixels per line, that is: (.*?)\.$", text, re.DOTALL | re.MULTILINE)
+    sentence = r"In block RAMs of 18 kbit, at 1280 pixels per line, that is: (.*?)\.$"
+    (told,) = re.findall(sentence, text, re.DOTALL | re.MULTILINE)
     found = [(name, int(number)) for name, number in re.findall(r"`([\w-]+)` (\d+)", told)]
     assert len(found) == 7
     for number, (name, blocks) in enumerate(found):

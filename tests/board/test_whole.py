@@ -54,10 +54,9 @@ def test_a_clean_line(config, compute, tmp_path):
     assert board.record["led"] & (ALIVE | LOCKED | BUSY | ERROR) == ALIVE | LOCKED
 
 
-@pytest.mark.parametrize("name", ["ulx3s-85f", pytest.param("ulx3s-45f", marks=pytest.mark.full)])
-def test_a_boards_own_core_without_a_border_band(name, compute, tmp_path):
+def test_a_boards_own_core_without_a_border_band(compute, tmp_path):
     """Small: fractions, six codes and confidence, and results that come long after the last pixel."""
-    own = BOARDS[name].config
+    own = BOARDS["ulx3s-85f"].config
     assert own.post.check
     keys = ("disparities=8", "lanes=4", "max_width=64", "max_height=64", "post.masked_median=2")
     with plugged_in(own.override(keys), tmp_path) as board:

@@ -125,10 +125,8 @@ class Slots(wiring.Component):
             ready=self.i.ready,
             beyond=draining.some | beyond.some,
         )
-        going, ending = (
-            pace.rest.some,
-            pace.rest.last,
-        )  # steps of this slot are left after this clock, and one
+        # Steps of this slot are left after this clock, and one.
+        going, ending = pace.rest.some, pace.rest.last
         m.d.comb += self.begins.eq(pace.slot)
 
         # What a slot is if one begins.

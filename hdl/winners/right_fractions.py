@@ -3,11 +3,11 @@
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 from amaranth.lib.memory import Memory
-from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.winners.argmin import FractionMin, candidate_layout, latency
+from softdepth.hdl.winners.shapes import right_winner_members
 from softdepth.hdl.winners.tournament import tournament, tournament_latency
 from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 
@@ -33,17 +33,7 @@ class RightFractions(wiring.Component):
         self._candidate = candidate_layout(cost.members["num"], cost.members["den"], lanes * steps)
         self._node_latency = latency(self._candidate)
         self.latency = self._node_latency + tournament_latency(self._candidate, self._parts) + 1
-        super().__init__(
-            {
-                "valid": In(1),
-                "first": In(1),
-                "last": In(1),
-                "step": In(range(steps)),
-                "costs": In(data.ArrayLayout(cost, lanes)),
-                "excluded": In(lanes),
-                "winner": Out(range(lanes * steps)),
-            }
-        )
+        super().__init__(right_winner_members(lanes, steps, cost))
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

@@ -2,10 +2,9 @@
 
 from amaranth.hdl import Const, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
-from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.winners.right_fractions import RightFractions
-from softdepth.hdl.winners.shapes import is_fraction
+from softdepth.hdl.winners.shapes import is_fraction, right_winner_members
 
 
 class RightWinner(wiring.Component):
@@ -36,17 +35,7 @@ class RightWinner(wiring.Component):
         self._lanes, self._steps, self._cost = lanes, steps, cost
         self._fractions = RightFractions(lanes, steps, cost) if is_fraction(cost) else None
         self.latency = self._fractions.latency if self._fractions else 1
-        super().__init__(
-            {
-                "valid": In(1),
-                "first": In(1),
-                "last": In(1),
-                "step": In(range(steps)),
-                "costs": In(data.ArrayLayout(cost, lanes)),
-                "excluded": In(lanes),
-                "winner": Out(range(lanes * steps)),
-            }
-        )
+        super().__init__(right_winner_members(lanes, steps, cost))
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

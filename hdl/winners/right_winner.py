@@ -15,7 +15,8 @@ class RightWinner(wiring.Component):
     nothing: so a line's last right pixels leave during the slots that follow the line, whatever these are.
     The state of a lane is its segment's, far end first; the near end takes over from the lane below.
     Plain numbers are compared within a clock: with one step a candidate's best is wanted in the clock that
-    follows. Fractions take more (`RightFractions`).
+    follows. That clock is all comparison: costs come to registers near it first. Fractions take more
+    (`RightFractions`).
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ class RightWinner(wiring.Component):
     def __init__(self, lanes: int, steps: int, cost: data.StructLayout) -> None:
         self._lanes, self._steps, self._cost = lanes, steps, cost
         self._fractions = RightFractions(lanes, steps, cost) if is_fraction(cost) else None
-        self.latency = self._fractions.latency if self._fractions else 1
+        self.latency = self._fractions.latency if self._fractions else 2
         super().__init__(right_winner_members(lanes, steps, cost))
 
     def elaborate(self, platform: object) -> Module:
@@ -44,6 +45,12 @@ class RightWinner(wiring.Component):
             wiring.connect(m, wiring.flipped(self), fractions)
             return m
         steps = self._steps
+        valid, first = Signal(), Signal()
+        step = Signal.like(self.step, reset_less=True)
+        costs = Signal.like(self.costs, reset_less=True)
+        excluded = Signal.like(self.excluded, reset_less=True)
+        m.d.sync += [valid.eq(self.valid), first.eq(self.first), step.eq(self.step)]
+        m.d.sync += [costs.eq(self.costs), excluded.eq(self.excluded)]
         best = data.StructLayout({"cost": self._cost, "index": range(self._lanes * steps)})
         # Nothing was found before the first candidate: any cost is less.
         none = (1 << self._cost.size) - 1
@@ -53,15 +60,15 @@ class RightWinner(wiring.Component):
             before = Signal(best, name=f"before_{lane}", reset_less=True)
             now = Signal(best, name=f"now_{lane}")
             better = Signal(name=f"better_{lane}")
-            m.d.comb += better.eq(~self.excluded[lane] & (self.costs[lane].num - before.cost.num)[-1])
+            m.d.comb += better.eq(~excluded[lane] & (costs[lane].num - before.cost.num)[-1])
             m.d.comb += [
-                Value.cast(now.cost).eq(Mux(better, Value.cast(self.costs[lane]), Value.cast(before.cost))),
-                now.index.eq(Mux(better, lane * steps + steps - 1 - self.step, before.index)),
+                Value.cast(now.cost).eq(Mux(better, Value.cast(costs[lane]), Value.cast(before.cost))),
+                now.index.eq(Mux(better, lane * steps + steps - 1 - step, before.index)),
             ]
             if steps == 1:
                 m.d.comb += before.eq(entering)
                 found = Signal(best, name=f"found_{lane}", reset_less=True)
-                with m.If(self.valid):
+                with m.If(valid):
                     m.d.sync += found.eq(now)
                 entering = found
                 continue
@@ -70,16 +77,16 @@ class RightWinner(wiring.Component):
             waits = [Signal(best, name=f"waits_{lane}_{k}", reset_less=True) for k in range(steps - 2)]
             far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(min(steps - 1, 2))]
             line = [now, *waits]
-            with m.If(self.valid):
+            with m.If(valid):
                 m.d.sync += [
-                    before.eq(Mux(self.step == steps - 2, entering, Value.cast(line[-1]))),
+                    before.eq(Mux(step == steps - 2, entering, Value.cast(line[-1]))),
                     *(late.eq(early) for early, late in zip(line, waits, strict=False)),
                 ]
-            with m.If(self.first):
+            with m.If(first):
                 m.d.sync += [late.eq(early) for early, late in zip([now, *far], far, strict=False)]
             entering = Value.cast(far[-1])
         winner = Signal.like(self.winner, reset_less=True)
-        with m.If(self.first):
+        with m.If(first):
             m.d.sync += winner.eq(now.index)
         m.d.comb += self.winner.eq(winner)
         return m

@@ -22,8 +22,10 @@ SPARE = 3
 """Faults that are drawn for each that is wanted: some are none, and are left out."""
 
 PREPARED = (
-    f"read_rtlil core.il; hierarchy -top {TOP}; proc; flatten; opt -full; wreduce; opt_clean -purge;"
-    " memory_collect; splitcells; opt_clean -purge"
+    f"read_rtlil core.il; hierarchy -top {TOP}; proc; flatten;"
+    # yosys' pass for flip-flops stumbles over wires that others have joined: these are tidied up first.
+    " opt_merge; opt_clean; opt_dff; opt_clean;"
+    " opt -full; wreduce; opt_clean -purge; memory_collect; splitcells; opt_clean -purge"
 )
 """Bits that nothing sees are gone then: a fault in them would be none."""
 
@@ -82,7 +84,7 @@ def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[st
     script = f"{PREPARED}; write_rtlil flat.il; write_json flat.json; {drawn}"
     yosys.run(["-q", "-l", "log", "-p", script], folder, log="log")
     module = json.loads((folder / "flat.json").read_text())["modules"][TOP]
-    read = _read(module)
+    read, made = _read(module), _made(module)
     chosen, found = [], []
     for command in (folder / "drawn").read_text().splitlines():
         words = command.split()
@@ -91,6 +93,7 @@ def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[st
         if len(found) < count and _changes(cell, options, read):
             chosen.append(command)
             sources = [place for flag, place in zip(words[5::2], words[6::2], strict=True) if flag == "-src"]
+            sources = sources or [made[bit] for bit in _written(cell) if bit in made]
             found.append(_described(number, options, cell["type"].lstrip("$"), sources))
     (folder / "chosen").write_text("\n".join(chosen) + "\n")
     script = "read_rtlil flat.il; script chosen; opt_clean; write_verilog -noattr core.v"
@@ -105,6 +108,23 @@ def _read(module: dict[str, Any]) -> set[Any]:
         ways = cell["port_directions"]
         ports += [bits for name, bits in cell["connections"].items() if ways[name] == "input"]
     return {bit for bits in ports for bit in bits}
+
+
+def _written(cell: dict[str, Any]) -> list[Any]:
+    """The bits that a cell drives."""
+    ways = cell["port_directions"]
+    return [bit for name, bits in cell["connections"].items() if ways[name] == "output" for bit in bits]
+
+
+def _made(module: dict[str, Any]) -> dict[Any, str]:
+    """Of each bit, the line of a cell that reads it: where yosys made its driver itself, this tells most."""
+    found: dict[Any, str] = {}
+    for cell in module["cells"].values():
+        source = cell["attributes"].get("src", "").partition("|")[0]
+        for name, bits in cell["connections"].items() if source else ():
+            if cell["port_directions"][name] == "input":
+                found.update((bit, source) for bit in bits if bit not in found)
+    return found
 
 
 def _changes(cell: dict[str, Any], options: dict[str, str], read: set[Any]) -> bool:

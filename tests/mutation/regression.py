@@ -34,8 +34,13 @@ PALE = 8
 """Runs of next to no contrast."""
 FEWER = 4
 """By this are these divided where less will do."""
-FAULTS = 300
-"""Frames with every fault that is counted."""
+FAULTS = (255, 257)
+"""Of two runs the frames with every fault that is counted. Where one of a counter's bits turns
+another, it has done so an odd number of times at the first if it does at 1, at the second if at 0."""
+SPECKLED = 8
+"""Runs of pictures with specks that only one view has."""
+SHORTENED = 8
+"""Runs of frames whose lines end anywhere."""
 PAUSED = ("slow source", "slow sink", "both slow", "waiting sink")
 PAUSES = {
     "full rate": (0, 0),
@@ -73,7 +78,9 @@ def regression(config: Config, seed: int = 0, *, thorough: bool = True) -> list[
     trials += [broken(config, unmarked(config, seed + k), seed + k, rates[k]) for k in range(2)]
     trials.append(broken(config, marked_later(config), seed))
     trials += [pale(config, seed + 80 + k) for k in range(PALE // fewer)]
-    trials.append(broken(config, counted(config, FAULTS // fewer), seed))
+    trials += [broken(config, counted(config, times // fewer), seed) for times in FAULTS]
+    trials += [speckled(config, seed + 100 + k) for k in range(SPECKLED // fewer)]
+    trials += [broken(config, shortened(config, seed + k), seed + k) for k in range(SHORTENED // fewer)]
     return trials
 
 
@@ -87,6 +94,34 @@ def pale(config: Config, seed: int) -> Trial:
         frames.append((left.astype(np.uint8), (right + rng.integers(0, 232)).astype(np.uint8)))
         frames.append((left.astype(np.uint8), right.astype(np.uint8)))
     return sound(config, frames, seed=seed)
+
+
+def speckled(config: Config, seed: int) -> Trial:
+    """Next to no contrast, but specks in one view: all candidates cost much, and the least bits decide."""
+    rng = np.random.default_rng(seed)
+    shape = (config.max_height, config.max_width, config.pixel.channels)
+    frames = []
+    for share in (0.02, 0.05, 0.1):
+        for contrast in (2, 6):
+            left, right = rng.integers(0, contrast, (2, *shape))
+            specks = rng.random(shape[:2]) < share
+            left[specks] += rng.integers(0, 256 - contrast, (np.count_nonzero(specks), 1))
+            frames.append((left.astype(np.uint8), right.astype(np.uint8)))
+    return sound(config, frames, seed=seed)
+
+
+def shortened(config: Config, seed: int) -> Stream:
+    """Frames of the largest size, of whose lines many end anywhere: these are filled with what came last."""
+    random = Random(seed)
+    frames = []
+    for _ in range(3):
+        frame = good_frame(config.max_width, config.max_height, eof=True)
+        lines = [frame[at : at + config.max_width] for at in range(0, len(frame), config.max_width)]
+        for line in lines[1:-1]:
+            if random.random() < 0.7:
+                del line[random.randrange(config.max_width - 1) : -1]
+        frames += chain.from_iterable(lines)
+    return frames
 
 
 def unmarked(config: Config, seed: int) -> Stream:

@@ -1,7 +1,7 @@
 """Sums that share a carry chain."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from amaranth.hdl import Cat, Const, Shape, Value
 
@@ -105,7 +105,7 @@ def _chain(fields: Sequence[Field]) -> list[Word]:
     for field, start in zip(fields, starts, strict=True):
         maximum = field.a.maximum + field.b.maximum + (field.carry is not None)
         value = total.value[start : start + min(field.bits, maximum.bit_length())]
-        results.append(Word(value, 0, maximum, total.time, pipeline))
+        results.append(replace(total, value=value, maximum=maximum))
     return results
 
 

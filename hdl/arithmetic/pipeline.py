@@ -31,46 +31,47 @@ class Pipeline:
         self._m = m
         self._levels = levels
         # Keyed by identity, so the source is kept alive beside its register.
-        self._delayed: dict[tuple[int, int], tuple[Value, Value]] = {}
+        self._delayed: dict[tuple[int, int], tuple[Value, Signal]] = {}
 
-    def input(self, value: ValueLike, maximum: int, *, minimum: int = 0, time: int = 0) -> Word:
-        """A word that enters the pipeline at ``time``."""
-        return Word(Value.cast(value), minimum, maximum, time, self)
+    def input(self, value: ValueLike, maximum: int, name: str, *, minimum: int = 0, time: int = 0) -> Word:
+        """A word that enters the pipeline at ``time``; timing reports call what delays it ``name_late_1``."""
+        return Word(Value.cast(value), minimum, maximum, time, name, self)
 
     def constant(self, value: int, time: int) -> Word:
         """A constant, of a ``time`` like that of the words beside it."""
         shape = _shape(min(value, 0), max(value, 1))
-        return Word(Const(value, shape), value, value, time, self)
+        return Word(Const(value, shape), value, value, time, str(value), self)
 
-    def result(self, value: ValueLike, minimum: int, maximum: int, time: int, name: str = "result") -> Word:
+    def result(self, value: ValueLike, minimum: int, maximum: int, time: int, name: str) -> Word:
         """The word ``value``, an operation on words of ``time``; timing reports call it ``name``."""
         if (time + 1) % self._levels == 0:
             register = self._register(value, minimum, maximum, name)
-            return Word(register, minimum, maximum, time + 1, self)
+            return Word(register, minimum, maximum, time + 1, name, self)
         wire = Signal(_shape(minimum, maximum), name=name)
         self._m.d.comb += wire.eq(value)
-        return Word(wire, minimum, maximum, time + 1, self)
+        return Word(wire, minimum, maximum, time + 1, name, self)
 
     def at(self, word: Word, time: int) -> Word:
         """``word`` delayed until ``time``."""
         if time < word.time:
             raise ValueError(f"a word of time {word.time} is not there at time {time}")
-        value = word.value
+        value, name = word.value, word.name
         if isinstance(value, Const):
             return replace(word, time=time)
         for clock in range(word.time // self._levels, time // self._levels):
             key = (id(value), clock)
             if key not in self._delayed:
-                late = self._register(value, word.minimum, word.maximum, _late(value))
+                late = self._register(value, word.minimum, word.maximum, _late(name))
                 self._delayed[key] = (value, late)
             value = self._delayed[key][1]
-        return replace(word, value=value, time=time)
+            name = value.name
+        return replace(word, value=value, time=time, name=name)
 
     def clock(self, word: Word) -> int:
         """The clock in which ``word`` is there."""
         return word.time // self._levels
 
-    def _register(self, value: ValueLike, minimum: int, maximum: int, name: str) -> Value:
+    def _register(self, value: ValueLike, minimum: int, maximum: int, name: str) -> Signal:
         signal = Signal(_shape(minimum, maximum), name=name, reset_less=True)
         self._m.d.sync += signal.eq(value)
         return signal
@@ -108,7 +109,7 @@ class Pipeline:
         a, b = self.at(a, there), self.at(b, there)
         highest = a.maximum * b.maximum
         product = self._register(a.value * b.value, 0, highest, "product")
-        return Word(product, 0, highest, there + self._levels, self)
+        return Word(product, 0, highest, there + self._levels, "product", self)
 
     def rounded(self, word: Word, bits: int) -> Word:
         """``word / 2**bits``, rounded half up."""
@@ -137,12 +138,12 @@ class Pipeline:
         shape = _shape(minimum, maximum)
         bits = word.value[: shape.width]
         value = bits.as_signed() if shape.signed else bits
-        return Word(value, minimum, maximum, word.time, self)
+        return replace(word, value=value, minimum=minimum, maximum=maximum)
 
     def shifted(self, word: Word, bits: int) -> Word:
         """``word * 2**bits``: wires only."""
         low, high = word.minimum << bits, word.maximum << bits
-        return Word(word.value << bits, low, high, word.time, self)
+        return replace(word, value=word.value << bits, minimum=low, maximum=high)
 
     def tree(self, operation: Callable[[T, T], T], words: Sequence[T]) -> T:
         """Reduce ``words`` with a balanced tree, in ``tree_operations(len(words))`` operations."""
@@ -193,12 +194,10 @@ def _search(index: Value, entries: Sequence[Const], starts: Sequence[int]) -> Va
     return Mux(index >= starts[half], upper, lower)
 
 
-def _late(value: Value) -> str:
-    """The name of a value one clock later: a signal keeps its own, with the clocks since then appended."""
-    if not isinstance(value, Signal):
-        return "late"
-    name, _, clocks = value.name.rpartition("_late_")
-    return f"{name}_late_{int(clocks) + 1}" if name else f"{value.name}_late_1"
+def _late(name: str) -> str:
+    """The name of a word one clock later: its own, with the clocks since then appended."""
+    known, _, clocks = name.rpartition("_late_")
+    return f"{known}_late_{int(clocks) + 1}" if known and clocks.isdigit() else f"{name}_late_1"
 
 
 def _shape(minimum: int, maximum: int) -> Shape:

@@ -12,7 +12,8 @@ def wire(function: Callable[..., Value], *words: Word, minimum: int, maximum: in
     pipeline = words[0].pipeline
     words = pipeline.aligned(*words)
     value = function(*(word.value for word in words))
-    return Word(value, minimum, maximum, words[0].time, pipeline)
+    name = "_".join(word.name for word in words)
+    return Word(value, minimum, maximum, words[0].time, name, pipeline)
 
 
 def flag(function: Callable[..., Value], *words: Word) -> Word:
@@ -27,7 +28,7 @@ def choose(condition: Word, a: Word | int, b: Word | int) -> Word:
         for word in (a, b)
     )
     low, high = min(a.minimum, b.minimum), max(a.maximum, b.maximum)
-    return wire(Mux, condition, a, b, minimum=low, maximum=high)
+    return wire(Mux, condition, a, b, minimum=low, maximum=high).named(f"{a.name}_or_{b.name}")
 
 
 def inverted_if(condition: Word, word: Word) -> Word:
@@ -36,4 +37,5 @@ def inverted_if(condition: Word, word: Word) -> Word:
     def invert(v: Value, c: Value) -> Value:
         return (Cat(v, 0) ^ c.replicate(len(v) + 1)).as_signed()
 
-    return wire(invert, word, condition, minimum=-word.maximum - 1, maximum=word.maximum)
+    inverted = wire(invert, word, condition, minimum=-word.maximum - 1, maximum=word.maximum)
+    return inverted.named(word.name)

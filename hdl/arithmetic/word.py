@@ -16,7 +16,7 @@ class Registers(Protocol):
     def aligned(self, *words: Word) -> tuple[Word, ...]: ...
     def within(self, word: Word, minimum: int, maximum: int) -> Word: ...
     def shifted(self, word: Word, bits: int) -> Word: ...
-    def result(self, value: Value, minimum: int, maximum: int, time: int, name: str = ...) -> Word: ...
+    def result(self, value: Value, minimum: int, maximum: int, time: int, name: str) -> Word: ...
     def add(self, a: Word, b: Word) -> Word: ...
     def subtract(self, a: Word, b: Word) -> Word: ...
     def multiply(self, a: Word, b: Word) -> Word: ...
@@ -24,19 +24,20 @@ class Registers(Protocol):
 
 @dataclass(frozen=True)
 class Word:
-    """A number in a pipeline: its signal, the range it can take, and its time in operations.
+    """A number in a pipeline: its signal, the range it can take, its time in operations, and its name.
 
     ``a + b``, ``a - b`` and the comparisons ``<``, ``<=``, ``>``, ``>=`` take one operation, on a carry
     chain; ``a * b`` takes a multiplier and its registers. Either operand may be an integer. What only
     rearranges bits takes no operation: ``a << bits``, ``a[k]``, ``a[low:high]``, `negative`, `inverted`,
     and ``&``, ``|``, ``^`` and ``~`` of flags, which are words of 0 and 1. Operands of different times are
-    aligned.
+    aligned. Registers are named after the words that they hold.
     """
 
     value: Value
     minimum: int
     maximum: int
     time: int
+    name: str = field(compare=False)
     pipeline: Registers = field(compare=False, repr=False)
 
     def __len__(self) -> int:
@@ -45,6 +46,10 @@ class Word:
     def at(self, time: int) -> Word:
         """The word, delayed until ``time``."""
         return self.pipeline.at(self, time)
+
+    def named(self, name: str) -> Word:
+        """The word, by another name."""
+        return replace(self, name=name)
 
     def within(self, minimum: int, maximum: int) -> Word:
         """The word, known by other reasoning to stay within a narrower range: wires only."""
@@ -78,7 +83,7 @@ class Word:
     @property
     def negative(self) -> Word:
         """Whether a word whose range goes below 0 is negative."""
-        return self[len(self) - 1]
+        return self[len(self) - 1].named(f"{self.name}_negative")
 
     @property
     def inverted(self) -> Word:
@@ -89,26 +94,27 @@ class Word:
     def __getitem__(self, bits: int | slice) -> Word:
         """A bit, or a range of bits without a sign."""
         value = self.value[bits]
-        return self._wire(value, (1 << len(value)) - 1)
+        name = f"{self.name}_{bits}" if isinstance(bits, int) else self.name
+        return self._wire(value, (1 << len(value)) - 1, name)
 
     def __and__(self, other: Word) -> Word:
         a, b = self._flags(other)
-        return a._wire(a.value & b.value, 1)
+        return a._wire(a.value & b.value, 1, f"{a.name}_and_{b.name}")
 
     def __or__(self, other: Word) -> Word:
         a, b = self._flags(other)
-        return a._wire(a.value | b.value, 1)
+        return a._wire(a.value | b.value, 1, f"{a.name}_or_{b.name}")
 
     def __xor__(self, other: Word) -> Word:
         a, b = self._flags(other)
-        return a._wire(a.value ^ b.value, 1)
+        return a._wire(a.value ^ b.value, 1, f"{a.name}_xor_{b.name}")
 
     def __invert__(self) -> Word:
         (a,) = self._flags()
-        return a._wire(~a.value, 1)
+        return a._wire(~a.value, 1, f"not_{a.name}")
 
-    def _wire(self, value: Value, maximum: int) -> Word:
-        return Word(value, 0, maximum, self.time, self.pipeline)
+    def _wire(self, value: Value, maximum: int, name: str) -> Word:
+        return Word(value, 0, maximum, self.time, name, self.pipeline)
 
     def _operand(self, other: Word | int) -> Word:
         return other if isinstance(other, Word) else self.pipeline.constant(other, self.time)

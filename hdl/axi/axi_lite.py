@@ -58,7 +58,8 @@ class AxiLite(wiring.Component):
         # Set from the first clock after reset on: `ready` is low until then.
         awake = Signal()
         m.d.sync += awake.eq(1)
-        write, read = Signal(), Signal()
+        write = Signal()
+        read = Signal()
         m.d.comb += [
             write.eq(awake & self.awvalid & self.wvalid & ~self.bvalid),
             read.eq(awake & self.arvalid & ~self.rvalid),
@@ -75,7 +76,8 @@ class AxiLite(wiring.Component):
             bus.read_word.eq(self.araddr[BYTE_BITS:]),
             self.rdata.eq(bus.read_data),
         ]
-        answered, known = Signal(), Signal()
+        answered = Signal()
+        known = Signal()
         m.d.comb += [self.bvalid.eq(answered), self.rvalid.eq(known)]
         with m.If(write):
             m.d.sync += answered.eq(1)

@@ -157,7 +157,8 @@ class AxiCore(wiring.Component):
         fields = [f for r in self._registers if r.takeover for f in r.fields]
         layout = data.StructLayout({f.name: f.width for f in fields})
         applied = Signal(layout, init={f.name: f.reset for f in fields})
-        pending, taken = Signal(), Signal()
+        pending = Signal()
+        taken = Signal()
         m.d.comb += [self._core.settings.hold.eq(pending), bank.given.status_pending.eq(pending)]
         with m.If(bank.takeover):
             m.d.sync += pending.eq(1)

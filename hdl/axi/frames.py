@@ -46,9 +46,12 @@ class Frames(wiring.Component):
         m.d.sync += inside.eq(inside + self.begins - ends)
         m.d.comb += self.busy.eq(inside.any())
 
-        column, row = Signal(GEOMETRY_BITS, init=1), Signal(GEOMETRY_BITS, init=1)
-        width, height = Signal(GEOMETRY_BITS), Signal(GEOMETRY_BITS)
-        count, ended = Signal(COUNT_BITS), Signal()
+        column = Signal(GEOMETRY_BITS, init=1)
+        row = Signal(GEOMETRY_BITS, init=1)
+        width = Signal(GEOMETRY_BITS)
+        height = Signal(GEOMETRY_BITS)
+        count = Signal(COUNT_BITS)
+        ended = Signal()
         with m.If(self.leaves):
             m.d.sync += column.eq(Mux(self.eol, 1, column + 1))
             with m.If(self.eol):

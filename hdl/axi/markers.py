@@ -36,7 +36,8 @@ class Markers(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         # Counted from 1, as the geometry is; a start of frame is at 1 wherever the counters are.
-        columns, rows = Signal(GEOMETRY_BITS, init=1), Signal(GEOMETRY_BITS, init=1)
+        columns = Signal(GEOMETRY_BITS, init=1)
+        rows = Signal(GEOMETRY_BITS, init=1)
         column, row = Mux(self.sof, 1, columns), Mux(self.sof, 1, rows)
         m.d.comb += [
             self.eol.eq(Mux(self.width.any(), column == self.width, self.last)),

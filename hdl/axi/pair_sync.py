@@ -66,7 +66,8 @@ class PairSync(wiring.Component):
         m = Module()
         views = left, right = self.left, self.right
         o, taken = self.o.payload, Signal()
-        both, starts = Signal(), Signal()
+        both = Signal()
+        starts = Signal()
         m.d.comb += [
             both.eq(left.valid & right.valid),
             starts.eq(left.payload.sof & right.payload.sof),

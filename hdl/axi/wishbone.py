@@ -37,7 +37,8 @@ class Wishbone(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         bus = self.bus
-        begins, ack = Signal(), Signal()
+        begins = Signal()
+        ack = Signal()
         m.d.sync += ack.eq(begins)
         m.d.comb += [
             begins.eq(self.cyc & self.stb & ~ack),

@@ -50,12 +50,15 @@ class LineStore(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.memory = memory = Memory(shape=2 * self._pixel.size, depth=self._depth, init=[])
-        write, read = memory.write_port(), memory.read_port()
-        x, y = Signal(range(self._depth + 1)), Signal.like(self.height)
+        write = memory.write_port()
+        read = memory.read_port()
+        x = Signal(range(self._depth + 1))
+        y = Signal.like(self.height)
         self._write(m, write, x)
 
         # Comparisons have registers of their own: x and y stand still for two clocks at least.
-        last_column, last_row = Signal(), Signal()
+        last_column = Signal()
+        last_row = Signal()
         m.d.sync += [
             last_column.eq(x + 1 == self.width),
             last_row.eq(y + 1 == self.height),

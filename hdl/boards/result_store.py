@@ -54,7 +54,8 @@ class ResultStore(wiring.Component):
         kept = [name for name in ("disparity", "code", "confidence") if name in layout.members]
         word = sum(layout[name].width for name in kept)
         m.submodules.memory = memory = Memory(shape=word, depth=SLOTS * self._depth, init=[])
-        write, read = memory.write_port(), memory.read_port()
+        write = memory.write_port()
+        read = memory.read_port()
         filled = Signal(range(SLOTS))  # slot that is being filled
         complete = Signal(range(SLOTS + 1))
         free = Signal(range(SLOTS + 1), init=SLOTS)

@@ -75,8 +75,10 @@ class Session(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         # Packets are far apart, so that what is asked about them may take its time.
-        good, bad = Signal(), Signal()
-        awaited, behind = Signal(16), Signal(16)
+        good = Signal()
+        bad = Signal()
+        awaited = Signal(16)
+        behind = Signal(16)
         m.d.sync += [good.eq(self.good), bad.eq(self.bad), behind.eq(awaited - self.sequence)]
         started = Signal()
         event = Signal(4)
@@ -139,7 +141,9 @@ class Session(wiring.Component):
             m.d.sync += size.eq(Cat(size[8:], self.payload))
         self._size = width, height = size[:16], size[16:]
         config = self._config
-        self._size_fits, self._is_size, self._is_line = Signal(), Signal(), Signal()
+        self._size_fits = Signal()
+        self._is_size = Signal()
+        self._is_line = Signal()
         line_bytes = Signal(16)
         each = pair_bytes(config.pixel)
         m.d.sync += [

@@ -76,9 +76,9 @@ class BandCosts(wiring.Component):
         m.d.comb += first.eq(sequencer.valid & sequencer.first)
         for name, source in {"valid": sequencer.valid, "first": first}.items():
             occurs[name] = [source, *travelling(m, source, cost_time - 1, name, since=1)]
-        step = control.input(sequencer.step, config.steps - 1, time=1)
-        first_of_line = control.input(sequencer.first_of_line, 1, time=1)
-        first_inner = control.input(sequencer.first_inner, 1, time=1)
+        step = control.input(sequencer.step, config.steps - 1, "step", time=1)
+        first_of_line = control.input(sequencer.first_of_line, 1, "first_of_line", time=1)
+        first_inner = control.input(sequencer.first_inner, 1, "first_inner", time=1)
 
         left, right = self._columns(m, sequencer)
         m.submodules.right = columns = RightColumns(config, left.shape())
@@ -131,7 +131,8 @@ class BandCosts(wiring.Component):
         config, item = self._config, self.i.payload
         size = config.pixel.size
         m.submodules.lines = lines = LineBuffer(2 * size, config.column_rows, config.max_width)
-        left, right = Signal(column_layout(config)), Signal(column_layout(config))
+        left = Signal(column_layout(config))
+        right = Signal(column_layout(config))
         m.d.comb += [
             lines.en.eq(sequencer.load),
             lines.x.eq(item.x),

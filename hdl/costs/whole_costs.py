@@ -140,7 +140,8 @@ class WholeCosts(wiring.Component):
 
         # A pixel's column in both views: all rows that are compared.
         row_layout = rows_layout(plan_)
-        left, right = Signal(row_layout), Signal(row_layout)
+        left = Signal(row_layout)
+        right = Signal(row_layout)
         for view, columns in (("left", left), ("right", right)):
             held = at(Value.cast(slot.payload[view]), column_time, view)
             fields = data.View(self._descriptors[view].shape, held)

@@ -175,7 +175,9 @@ class LaneSums(wiring.Component):
             if isinstance(block, SupportMean):
                 support = self.supports[str(k)]
                 m.d.comb += [block.weights.eq(support.weights), block.reciprocal.eq(support.reciprocal)]
-            words.append(pipeline.input(block.o << shift, block.maximum << shift, time=block.latency))
+            words.append(
+                pipeline.input(block.o << shift, block.maximum << shift, f"criterion_{k}", time=block.latency)
+            )
         aligned = [pipeline.at(word, self.criteria_latency) for word in words]
         if self._cost is None:
             m.d.comb += self.o.num.eq(pipeline.at(pipeline.sum(aligned), self.latency).value)

@@ -112,7 +112,8 @@ class FrameGuard(wiring.Component):
         ending = states.group("END", "OVER")
         own = states.group("PAD", "END", "OVER")  # what leaves is not the pixel on offer
 
-        starts, rest = Signal(), Signal()  # a pixel is offered: one that starts a frame, or any other
+        starts = Signal()  # a pixel that starts a frame is offered
+        rest = Signal()  # any other is
         eol = Signal()
         begins = Signal()  # a frame may begin
         m.d.comb += [
@@ -138,7 +139,9 @@ class FrameGuard(wiring.Component):
         ]
 
         # What a pixel that passes does: it ends its line, or is the last before the line is filled or cut.
-        short, cut, line_ends = Signal(), Signal(), Signal()
+        short = Signal()
+        cut = Signal()
+        line_ends = Signal()
         end_waits = Signal(reset_less=True)  # the line that is being filled had its frame's end
         m.d.comb += [
             short.eq(passes & eol & ~columns.may_end),
@@ -200,7 +203,8 @@ class FrameGuard(wiring.Component):
         ]
 
         # Damage is known one clock after it left, and forgotten one clock after its frame's end left.
-        hurt, damaged = Signal(), Signal()
+        hurt = Signal()
+        damaged = Signal()
         so_far = Signal()  # this frame was damaged before
         m.d.comb += so_far.eq((damaged | hurt) & ~closed)
         m.d.sync += [hurt.eq(self.o.valid & may_leave & (found | short | cut)), damaged.eq(so_far)]

@@ -32,8 +32,10 @@ class ItemQueue(wiring.Component):
         m = Module()
         places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(self.places))
         oldest = Signal()  # the place that is emptied next
-        holding, full = Signal(), Signal()  # one place at least holds an item, and both do
-        comes, goes = Signal(), Signal()
+        holding = Signal()  # one place at least holds an item
+        full = Signal()  # both do
+        comes = Signal()
+        goes = Signal()
         m.d.comb += [
             comes.eq(self.i.valid & self.i.ready),
             goes.eq(self.o.valid & self.o.ready),

@@ -49,7 +49,8 @@ class LineBuffer(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         # The memory's inputs come from registers: its blocks lie far apart.
-        entering, entered = Signal(), Signal()
+        entering = Signal()
+        entered = Signal()
         x = Signal(range(self._depth), reset_less=True)
         entering_pixel = Signal(self._width, reset_less=True)
         pixel = Signal(self._width, reset_less=True)
@@ -74,7 +75,8 @@ class LineBuffer(wiring.Component):
 
         # What is written back comes from the output's registers, which block RAM has of its own.
         m.submodules.lines = lines = SlicedMemory(self._width * (self._rows - 1), self._depth)
-        read_at, written_at = Signal.like(x), Signal.like(x)
+        read_at = Signal.like(x)
+        written_at = Signal.like(x)
         m.d.comb += [
             lines.read.eq(entering),
             lines.read_at.eq(x),

@@ -79,7 +79,8 @@ class Sequencer(wiring.Component):
         taken = Signal()
         starts = Signal()  # the item completes the support of the frame's first result
         ends = Signal()  # the item ends the frame
-        draining, own = Signal(), Signal()  # results that leave are those of the frame before, or of this one
+        draining = Signal()  # results that leave are those of the frame before
+        own = Signal()  # they are those of this one
         drains = Signal()  # a result leaves on its own
         m.d.comb += [
             starts.eq(rows.first & item.completes),

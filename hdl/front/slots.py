@@ -204,7 +204,9 @@ class Slots(wiring.Component):
                     unripe.start(self._below)
                     m.d.sync += ended.eq(0)
 
-        valid, first, last = Signal(), Signal(), Signal()
+        valid = Signal()
+        first = Signal()
+        last = Signal()
         step = Signal(range(self._steps))
         m.d.sync += [
             valid.eq(self.begins | going),

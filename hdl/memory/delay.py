@@ -81,7 +81,8 @@ class Delay(wiring.Component):
         write = ring.write_port()
         read = ring.read_port()
         # The word that the next enabled clock takes away must be there when it comes.
-        written, shown = Signal(range(self._depth)), Signal(range(self._depth), init=1 if self._in_ram else 0)
+        written = Signal(range(self._depth))
+        shown = Signal(range(self._depth), init=1 if self._in_ram else 0)
         last = shown if self._in_ram else written
         following = Mux(last == self._depth - 1, 0, last + 1)
         m.d.comb += [

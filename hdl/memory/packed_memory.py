@@ -61,7 +61,8 @@ class PackedMemory(wiring.Component):
             for low in range(0, len(word), SEGMENTS[deep]):
                 part = word[low : low + SEGMENTS[deep]]
                 m.submodules[f"slice_{base}_{low}"] = memory = Memory(shape=len(part), depth=used, init=[])
-                read, write = memory.read_port(), memory.write_port()
+                read = memory.read_port()
+                write = memory.write_port()
                 m.d.comb += [
                     read.en.eq(self.read),
                     read.addr.eq(self.read_at - base if base % deep else self.read_at[: len(read.addr)]),

@@ -39,8 +39,10 @@ class PackedQueue(wiring.Component):
         new = Value.cast(self.i.payload)
         m.submodules.memory = memory = PackedMemory(unsigned(len(new)), depth, registered=True)
         m.submodules.queue = queue = ResultQueue(self._shape, self._read)
-        write_at, read_at = Signal(range(depth)), Signal(range(depth))
-        puts, takes = Signal(), Signal()
+        write_at = Signal(range(depth))
+        read_at = Signal(range(depth))
+        puts = Signal()
+        takes = Signal()
         level = Level(m, depth, puts, takes)
         m.d.comb += [
             self.i.ready.eq(level.room),

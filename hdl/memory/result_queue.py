@@ -59,8 +59,10 @@ class ResultQueue(wiring.Component):
         # place more than its memory. What is written has a place: nobody asks.
         places = depth - 1
         m.submodules.memory = memory = Memory(shape=len(result), depth=places, init=[])
-        write, read = memory.write_port(), memory.read_port()
-        write_at, read_at = Signal(range(places)), Signal(range(places))
+        write = memory.write_port()
+        read = memory.read_port()
+        write_at = Signal(range(places))
+        read_at = Signal(range(places))
         holding = Signal()  # there is one in the output
         moves = Signal()  # one of them gets there
         free = Signal()

@@ -50,7 +50,8 @@ class SlicedMemory(wiring.Component):
         for low in range(0, len(word), width):
             part = word[low : low + width]
             m.submodules[f"slice_{low}"] = memory = Memory(shape=len(part), depth=self._depth, init=[])
-            read, write = memory.read_port(), memory.write_port()
+            read = memory.read_port()
+            write = memory.write_port()
             m.d.comb += [
                 read.en.eq(self.read),
                 read.addr.eq(self.read_at),

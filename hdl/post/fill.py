@@ -90,7 +90,8 @@ class Fill(wiring.Component):
             ends.eq(Mux(measured, result.end, result.about)),
         ]
         ending = Signal()  # the line has left: so does its mark
-        last, any_left = Signal(self._value_bits, reset_less=True), Signal()
+        last = Signal(self._value_bits, reset_less=True)
+        any_left = Signal()
         left_is_smaller = Signal()
         nothing = Signal()
         m.d.comb += [

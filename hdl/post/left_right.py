@@ -66,7 +66,8 @@ class LeftRight(wiring.Component):
         m.submodules.winners = winners = Delay(range(disparities), disparities - 1)
         m.d.comb += [winners.en.eq(self.valid), winners.i.eq(self.winner)]
         m.submodules.rights = rights = Memory(shape=range(disparities), depth=1 << bits, init=[])
-        write, read = rights.write_port(), rights.read_port(domain="comb")
+        write = rights.write_port()
+        read = rights.read_port(domain="comb")
         column = Signal(bits)
         left = Signal(range(disparities), reset_less=True)
         left_column = Signal(bits, reset_less=True)
@@ -111,20 +112,22 @@ class LeftRight(wiring.Component):
             m.d.sync += slots.eq(slots + 1)
 
         # What comes out of memory goes to registers alone, which may be the memory's own.
-        done, counts, agrees = Signal(), Signal(), Signal(reset_less=True)
+        done = Signal()
+        counts = Signal()
+        agrees = Signal(reset_less=True)
         emits = Signal(reset_less=True)
-        result = Signal(self._result, reset_less=True)
+        leaving = Signal(self._result, reset_less=True)
         m.d.sync += [
             done.eq(valid[self.lead]),
             counts.eq(valid[self.lead] & warm),
             emits.eq(waits.o.emits),
             agrees.eq(~(too_small | too_large)),
-            result.eq(waits.o.result),
+            leaving.eq(waits.o.result),
         ]
         m.d.comb += [
             self.done.eq(done),
             self.o_emits.eq(emits & counts),
             self.agrees.eq(agrees),
-            self.o.eq(result),
+            self.o.eq(leaving),
         ]
         return m

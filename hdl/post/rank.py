@@ -83,9 +83,9 @@ class LowerMedian(wiring.Component):
             so_far = Cat(is_one, *found)
             held_found = [Signal(name=f"found_{bit}_{k}", reset_less=True) for k in range(len(found))]
             m.d.sync += [h.eq(f) for h, f in zip(held_found, found, strict=True)]
-            result = Signal(len(so_far), name=f"result_{bit}", reset_less=True)
-            m.d.sync += result.eq(Cat(is_one, *held_found))
-            found, rank = list(result), below
+            upper = Signal(len(so_far), name=f"from_{bit}_up", reset_less=True)
+            m.d.sync += upper.eq(Cat(is_one, *held_found))
+            found, rank = list(upper), below
             may = following_may
         m.d.comb += self.o.eq(Cat(*found))
         return m

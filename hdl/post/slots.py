@@ -75,7 +75,8 @@ class PostSlots(wiring.Component):
             ready=self.ready,
             beyond=outside,
         )
-        starts, last = Signal(), Signal()
+        starts = Signal()
+        last = Signal()
         now = Signal(reach)
         m.d.comb += [
             outside.eq(flushing | trailing),
@@ -107,8 +108,10 @@ class PostSlots(wiring.Component):
                     below.step()
 
         # What is known of each pixel until it is in the middle of its row.
-        enters, emits = Signal(reach), Signal(reach)
-        eol, eof = Signal(reach, reset_less=True), Signal(reach, reset_less=True)
+        enters = Signal(reach)
+        emits = Signal(reach)
+        eol = Signal(reach, reset_less=True)
+        eof = Signal(reach, reset_less=True)
         with m.If(self.slot):
             m.d.sync += [
                 enters.eq(Cat(~trailing, enters)),

@@ -62,7 +62,7 @@ class BandWinners(wiring.Component):
                 tree.i[k].excluded.eq(self.excluded[k]),
             ]
         control = Pipeline(m, levels=1)
-        step = control.at(control.input(self.step, config.steps - 1), tree.latency).value
+        step = control.at(control.input(self.step, config.steps - 1, "step"), tree.latency).value
         m.d.comb += [
             sequence.valid.eq(travelling(m, self.valid, tree.latency, "valid")[-1]),
             sequence.last.eq(step == config.steps - 1),

@@ -160,11 +160,12 @@ class Neighbours(wiring.Component):
                 neither.eq(near & other),
             ]
             best = Mux(takes_b, b, a) | neither.replicate(bits)
-            far.append(pipeline.result(best, 0, none, 0))
+            far.append(pipeline.result(best, 0, none, 0, "far"))
 
         def less(a: Word, b: Word) -> Word:
             a, b = pipeline.aligned(a, b)
-            return pipeline.result(Mux((b.value - a.value)[-1], b.value, a.value), 0, none, a.time)
+            smaller = Mux((b.value - a.value)[-1], b.value, a.value)
+            return pipeline.result(smaller, 0, none, a.time, "smaller")
 
         smallest = pipeline.at(pipeline.tree(less, far), joined - self.costs_late).value
         runner_up = Signal(bits, reset_less=True)

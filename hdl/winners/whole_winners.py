@@ -193,7 +193,8 @@ class WholeWinners(wiring.Component):
             latency += LeftRight.latency
 
         # The slots are far from here: credit and what begins take a clock each for their way.
-        credit, begun = Signal(), Signal()
+        credit = Signal()
+        begun = Signal()
         unseen = -(-FAR // steps)
         m.submodules.queue = queue = ResultQueue(self.layout, -(-latency // steps) + 2, unseen=unseen)
         m.d.sync += [credit.eq(queue.credit), begun.eq(self.begins)]

@@ -38,7 +38,8 @@ class Arithmetic(wiring.Component):
         m = Module()
         pipeline = Pipeline(m, self.levels)
         inputs = [
-            pipeline.input(self.i[f"a{k}"], high, minimum=low) for k, (low, high) in enumerate(self.ranges)
+            pipeline.input(self.i[f"a{k}"], high, f"a{k}", minimum=low)
+            for k, (low, high) in enumerate(self.ranges)
         ]
         self.word = self.build(pipeline, inputs)
         assert pipeline.clock(self.word) == self.latency

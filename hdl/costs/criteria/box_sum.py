@@ -42,13 +42,15 @@ class BoxSum(wiring.Component):
         pipeline = Pipeline(m)
         valid = travelling(m, self.valid, self.latency, "valid")
 
-        sums: dict[int, Word] = {1: pipeline.input(self.i, self._maximum, time=start(self._operations))}
+        sums: dict[int, Word] = {
+            1: pipeline.input(self.i, self._maximum, "column", time=start(self._operations))
+        }
 
         def pixels_ago(word: Word, pixels: int) -> Word:
             delay = Delay(word.value.shape(), pixels * self._steps)
             m.submodules[f"ago_{pixels}_of_{word.maximum // self._maximum}"] = delay
             m.d.comb += [delay.en.eq(valid[pipeline.clock(word)]), delay.i.eq(word.value)]
-            return pipeline.input(delay.o, word.maximum, time=word.time)
+            return pipeline.input(delay.o, word.maximum, word.name, time=word.time)
 
         def box(width: int) -> Word:
             if width not in sums:

@@ -133,7 +133,7 @@ class ColumnSad(wiring.Component):
                 memory.newest.eq(pipeline.at(rows[newest].word, time).value),
             ]
             for k, offset in enumerate(range(-radius, newest)):
-                word = pipeline.input(memory.rows[k], column_maximum(1, self._pixel), time=time)
+                word = pipeline.input(memory.rows[k], column_maximum(1, self._pixel), f"row_{k}", time=time)
                 rows[offset] = Summand(word)
         return rows
 
@@ -206,7 +206,7 @@ def _differences(
 ) -> list[Difference]:
     """The differences of a pixel's channels, by one adder with a guard bit above each."""
     fields = [
-        Field(*(pipeline.input(value, pixel.maximum, time=time) for value in (left[c], ~right[c])))
+        Field(*(pipeline.input(value, pixel.maximum, "channel", time=time) for value in (left[c], ~right[c])))
         for c in range(pixel.channels)
     ]
     return [

@@ -39,7 +39,7 @@ class ColumnSum(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         pipeline = Pipeline(m)
-        words = [pipeline.input(value, self._maximum) for value in self.i]
+        words = [pipeline.input(value, self._maximum, "pixel") for value in self.i]
         while len(words) > 1:
             pairs = [Field(a, b) for a, b in zip(words[::2], words[1::2], strict=False)]
             single = words[2 * len(pairs) :]

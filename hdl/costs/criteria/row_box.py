@@ -43,6 +43,6 @@ class RowBox(wiring.Component):
             value = delay.o
             columns.append(value)
         pipeline = Pipeline(m, levels=1)
-        total = pipeline.sum([pipeline.input(column, self._maximum) for column in columns])
+        total = pipeline.sum([pipeline.input(column, self._maximum, "column") for column in columns])
         m.d.comb += self.o.eq(total.value)
         return m

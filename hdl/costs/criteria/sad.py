@@ -75,7 +75,7 @@ class SadCriteria(wiring.Component):
         for window in self._windows:
             m.submodules[f"box_{window}"] = box = self._boxes[window]
             m.d.comb += [box.valid.eq(valid[column.latency]), box.i.eq(column.o[f"c{window}"])]
-            total = pipeline.input(box.o, box.maximum, time=column.latency + box.latency)
+            total = pipeline.input(box.o, box.maximum, "box", time=column.latency + box.latency)
             sums[window] = pipeline.at(total, self.latency)
 
         for i, criterion in enumerate(self._criteria):

@@ -146,6 +146,8 @@ class SupportMean(wiring.Component):
             pipeline.result(Mux(self.weights[k], column, 0), 0, self._maximum, 0, "counted")
             for k, column in enumerate(columns)
         ]
-        product = pipeline.multiply(pipeline.sum(kept), pipeline.input(self.reciprocal, max(self.table)))
+        product = pipeline.multiply(
+            pipeline.sum(kept), pipeline.input(self.reciprocal, max(self.table), "reciprocal")
+        )
         m.d.comb += self.o.eq(product.value >> SUPPORT_SHIFT)
         return m

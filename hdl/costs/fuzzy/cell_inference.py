@@ -97,8 +97,8 @@ class CellInference(wiring.Component):
         fraction, above, limited = position(self._config, self.i, i)
         upper = Cat(Mux(limited, 0, fraction), limited)
         return (
-            pipe.result(upper, 0, self._config.one, self._start),
-            pipe.result(above | limited, 0, 1, self._start),
+            pipe.result(upper, 0, self._config.one, self._start, f"upper_{i}"),
+            pipe.result(above | limited, 0, 1, self._start, f"above_{i}"),
         )
 
     def _position(self, pipe: Pipeline) -> tuple[Position, Word]:
@@ -106,13 +106,13 @@ class CellInference(wiring.Component):
         fraction, above, limited = position(self._config, self.i, 0)
         above = above | limited
         fraction = fraction | limited.replicate(len(fraction))
-        none = pipe.input(Const(0, len(fraction)), 0, time=self._start)
+        none = pipe.input(Const(0, len(fraction)), 0, "none", time=self._start)
 
         def membership(bits: Value, carry: Value) -> Word:
-            word = pipe.input(bits, self._config.one - 1, time=self._start)
-            return add_fields([Field(word, none, pipe.input(carry, 1, time=self._start))])[0]
+            word = pipe.input(bits, self._config.one - 1, "fraction", time=self._start)
+            return add_fields([Field(word, none, pipe.input(carry, 1, "carry", time=self._start))])[0]
 
         inverse = above.replicate(len(fraction))
         outer = membership(fraction ^ ~inverse, ~above | limited)
         middle = membership(fraction ^ inverse, above & ~limited)
-        return Position(outer, middle), pipe.result(above, 0, 1, self._start)
+        return Position(outer, middle), pipe.result(above, 0, 1, self._start, "above_0")

@@ -53,22 +53,22 @@ class CellMeanInference(wiring.Component):
 
         # B - C, with X is B in place of its sign: the bit a above B inverts it.
         turned = (Cat(b.value, upper.value) - c.value)[: len(b.value) + 1]
-        turned = pipe.result(turned, 0, 4 * one - 1, b.time)
-        x_is_b = turned[len(turned) - 1]
-        below = x_is_b ^ upper
-        d = wire(lambda v, s: Cat(v[:-1], s), turned, below, minimum=0, maximum=4 * one - 1)
+        turned = pipe.result(turned, 0, 4 * one - 1, b.time, "turned")
+        x_is_b = turned[len(turned) - 1].named("x_is_b")
+        below = (x_is_b ^ upper).named("below")
+        d = wire(lambda v, s: Cat(v[:-1], s), turned, below, minimum=0, maximum=4 * one - 1).named("d")
 
         thrice = b_differs & c_differs
         first, z = self._first_and_z(pipe, a, choose(x_is_b, b, c), d, thrice)
         equal = ~(b_differs | c_differs)
-        minus = x_is_b ^ equal
-        negative = upper ^ equal
+        minus = (x_is_b ^ equal).named("minus")
+        negative = (upper ^ equal).named("negative")
         half, second = self._half_and_second(pipe, a, d, z, minus, negative)
 
         first, second = pipe.aligned(first, second)
         high = first.value + Cat(second.value[3:], Const(0b110, 3))
         num = Cat(second.value[:3], high[: len(first.value) + 1]).as_signed()
-        num = pipe.result(num, *self._config.cost_range[0], second.time)
+        num = pipe.result(num, *self._config.cost_range[0], second.time, "num")
 
         ready = start(OPERATIONS) + OPERATIONS
         assert num.time == ready
@@ -82,25 +82,32 @@ class CellMeanInference(wiring.Component):
         one = self._config.one
         time = start(OPERATIONS)
 
-        def stored(value: Value) -> Value:
-            return pipe.result(value, 0, (1 << len(value)) - 1, time).value
+        def stored(value: Value, name: str) -> Value:
+            return pipe.result(value, 0, (1 << len(value)) - 1, time, name).value
 
-        def word(value: Value, maximum: int) -> Word:
-            return pipe.input(value, maximum, time=time + 1)
+        def word(value: Value, maximum: int, name: str) -> Word:
+            return pipe.input(value, maximum, name, time=time + 1)
 
         (a, a_beyond, a_top), *others = (position(self._config, self.i, i) for i in range(3))
         a_upper = a_beyond | a_top
-        b_differs, c_differs = (stored(a_upper ^ (beyond | top)) for _, beyond, top in others)
-        (low_b, b_top), (low_c, c_top) = ((stored(Mux(top, 0, v)), top) for v, _, top in others)
-        a = stored(Mux(a_top, one, Cat(a, a_beyond)))
+        (_, b_beyond, b_top), (_, c_beyond, c_top) = others
+        b_differs = stored(a_upper ^ (b_beyond | b_top), "b_differs")
+        c_differs = stored(a_upper ^ (c_beyond | c_top), "c_differs")
+        b, c = (
+            Cat(stored(Mux(top, 0, v), f"low_{name}"), stored(top, f"{name}_top"))
+            for name, (v, _, top) in zip("bc", others, strict=True)
+        )
+        a = stored(Mux(a_top, one, Cat(a, a_beyond)), "a")
         upper = a[-1]
         return (
             [
-                word(Cat(a[:bits], _count(b_differs, c_differs, upper, stored(a_top))), 6 * one),
-                word(Cat(low_b, stored(b_top)), one),
-                word(Cat(low_c, stored(c_top)), one),
+                word(
+                    Cat(a[:bits], _count(b_differs, c_differs, upper, stored(a_top, "a_top"))), 6 * one, "a_p"
+                ),
+                word(b, one, "b"),
+                word(c, one, "c"),
             ],
-            [word(upper, 1), word(b_differs, 1), word(c_differs, 1)],
+            [word(upper, 1, "upper"), word(b_differs, 1, "b_differs"), word(c_differs, 1, "c_differs")],
         )
 
     def _first_and_z(self, pipe: Pipeline, a: Word, x: Word, d: Word, thrice: Word) -> tuple[Word, Word]:
@@ -113,12 +120,12 @@ class CellMeanInference(wiring.Component):
         a, x, d, thrice = pipe.aligned(a, x, d, thrice)
         once, again = d.value[1:], d.value[:-1] & thrice.value.replicate(bits + 1)
         total = Cat(a.value, once) + Cat(x.value, Const(0, 2), again)
-        total = pipe.result(total[: 2 * bits + 4], 0, (16 << 2 * bits) - 1, d.time)
+        total = pipe.result(total[: 2 * bits + 4], 0, (16 << 2 * bits) - 1, d.time, "first_and_z")
         low = d.at(total.time).value[0]
         z = Cat(low, total.value[bits + 3 :])
         return (
             replace(total[: bits + 3], maximum=7 * one),
-            pipe.input(z, 4 * one - 1, time=total.time),
+            pipe.input(z, 4 * one - 1, "z", time=total.time),
         )
 
     def _half_and_second(
@@ -140,10 +147,10 @@ class CellMeanInference(wiring.Component):
         total = Cat(magnitude, minus.value, a.value[:bits], next_p, Const(0, 1)) + Cat(
             ~d.value[0], Const(one >> 2, bits), minus.value, term
         )
-        total = pipe.result(total[: 2 * bits + 6], 0, (64 << 2 * bits) - 1, z.time)
+        total = pipe.result(total[: 2 * bits + 6], 0, (64 << 2 * bits) - 1, z.time, "half_and_second")
         half = Cat(d.at(total.time).value[0], total.value[1 : bits + 1])
         return (
-            pipe.input(half, 3 * one >> 1, minimum=one >> 1, time=total.time),
+            pipe.input(half, 3 * one >> 1, "half", minimum=one >> 1, time=total.time),
             replace(total[bits + 2 :], maximum=8 * one),
         )
 

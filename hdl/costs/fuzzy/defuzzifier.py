@@ -50,7 +50,7 @@ class Defuzzifier(wiring.Component):
         pipeline = Pipeline(m)
         low, high = self._strengths
         conclusions = {
-            k: pipeline.input(self.i[f"y{k}"], high, minimum=low, time=self._start)
+            k: pipeline.input(self.i[f"y{k}"], high, f"y{k}", minimum=low, time=self._start)
             for k in range(1, CONCLUSIONS + 1)
         }
         # Opposite weights share a multiple: 5 (Y_1 - Y_11), 4 (Y_2 - Y_10), ...

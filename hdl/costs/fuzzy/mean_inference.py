@@ -53,21 +53,22 @@ class MeanInference(wiring.Component):
         (x, y, z), (x_below, y_below, z_below) = self._distances(pipe)
         complement = wire(lambda v: ~v, y, minimum=0, maximum=2 * one - 1)
         above, t = add_fields([Field(x, complement), Field(x, y)])
+        t = t.named("t")
         x_larger = above[bits + 1]
         d = distance(above, ~x_larger, bits + 1, one)
-        n = choose(x_larger, y, x)
-        larger = choose(x_larger, x, y)
-        same = ~(x_below ^ y_below)
-        minus = choose(x_larger, x_below, y_below)  # s < 0
+        n = choose(x_larger, y, x).named("n")
+        larger = choose(x_larger, x, y).named("larger")
+        same = (~(x_below ^ y_below)).named("same")
+        minus = choose(x_larger, x_below, y_below).named("minus")  # s < 0
 
         e = d - n
-        c = choose(same, 0, e.negative)
-        folds = flag(lambda same, n: same & n[bits - 1 :].any(), same, n)
+        c = choose(same, 0, e.negative).named("c")
+        folds = flag(lambda same, n: same & n[bits - 1 :].any(), same, n).named("folds")
         twice_n = n << 1
 
         # 2 - t is the complement of t's low bits, and 1; j is 2 - t while h and t fall short of 2.
         # The constant 9 is 1 instead of k's 0, and 8 in a bit above the other terms.
-        h = choose(same, larger, t)
+        h = choose(same, larger, t).named("h")
         falls_short = flag(lambda v: ~v[bits + 1 :].any(), h + t)
         rest = wire(lambda v: ~v[: bits + 1], t, minimum=0, maximum=2 * one - 1)
         j = choose(falls_short, rest, h)
@@ -92,8 +93,8 @@ class MeanInference(wiring.Component):
         den = terms + add_with_carry(p, r_less_1, has_r, 0, 6 * one)
         p_2r = add_with_carry(p, twice_r_less_1, has_r, 0, 9 * one)
 
-        g = choose(same, t, d)
-        third = choose(c, d << 1, larger)
+        g = choose(same, t, d).named("g")
+        third = choose(c, d << 1, larger).named("third")
         sides = (g + (g << 2)) + (third + (third << 1))
         slope = ((z << 3) - z) << 1  # 14 z
         num = add_with_carry(
@@ -103,7 +104,7 @@ class MeanInference(wiring.Component):
             -27 * one - 1,
             27 * one,
         )
-        k = wire(lambda f, v: Mux(f, v - one, 0), folds, twice_n, minimum=0, maximum=one)
+        k = wire(lambda f, v: Mux(f, v - one, 0), folds, twice_n, minimum=0, maximum=one).named("k")
         num = add_with_carry(num, choose(minus, k << 1, k), minus, -27 * one, 28 * one)
         num = (num - p_2r).within(*self._config.cost_range[0])
 
@@ -122,10 +123,11 @@ class MeanInference(wiring.Component):
             fraction = fraction | limited.replicate(bits)
             fields.append(
                 Field(
-                    pipe.input(fraction ^ low.replicate(bits), self._config.one - 1),
-                    pipe.input(Const(0, bits), 0),
-                    pipe.input(low | limited, 1),
+                    pipe.input(fraction ^ low.replicate(bits), self._config.one - 1, f"fraction_{i}"),
+                    pipe.input(Const(0, bits), 0, "none"),
+                    pipe.input(low | limited, 1, f"carry_{i}"),
                 )
             )
-            below.append(pipe.input(low, 1))
-        return add_fields(fields), below
+            below.append(pipe.input(low, 1, f"below_{i}"))
+        distances = add_fields(fields)
+        return [word.named(name) for word, name in zip(distances, "xyz", strict=True)], below

@@ -60,7 +60,12 @@ class RuleArray(wiring.Component):
         pipeline = Pipeline(m)
 
         def membership(criterion: int, label: int) -> Word:
-            return pipeline.input(self.i[criterion - 1][LABELS[label]], self._config.one, time=self._start)
+            return pipeline.input(
+                self.i[criterion - 1][LABELS[label]],
+                self._config.one,
+                f"{LABELS[label]}_{criterion}",
+                time=self._start,
+            )
 
         joined: dict[Pairs, Word] = {}
 

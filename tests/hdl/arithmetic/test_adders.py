@@ -40,14 +40,14 @@ class Fields(wiring.Component):
         pipeline = Pipeline(m)
 
         def word(name: str, maximum: int) -> Word:
-            return pipeline.input(self.i[name] if maximum else Const(0, 1), maximum)
+            return pipeline.input(self.i[name] if maximum else Const(0, 1), maximum, name)
 
         fields = []
         for k, (a, b, carry) in enumerate(self.specs):
             given = word(f"a{k}", a)
             if k == 0:
                 for _ in range(self.late):
-                    given = pipeline.add(given, pipeline.input(Const(0, 1), 0, time=given.time))
+                    given = pipeline.add(given, pipeline.input(Const(0, 1), 0, "none", time=given.time))
             fields.append(Field(given, word(f"b{k}", b), word(f"c{k}", 1) if carry else None))
         for k, (total, (a, b, carry)) in enumerate(zip(add_fields(fields), self.specs, strict=True)):
             assert total.time in (1, self.late + 1)  # a chain waits for its own words only

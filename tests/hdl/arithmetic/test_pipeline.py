@@ -162,7 +162,7 @@ def test_inputs_may_arrive_later(levels: int, time: int) -> None:
     """The second input is said to come some clocks after the first: it is paired with what came then."""
 
     def build(p: Pipeline, w: Sequence[Word]) -> Word:
-        return p.add(w[0], p.input(w[1].value, w[1].maximum, time=time))
+        return p.add(w[0], p.input(w[1].value, w[1].maximum, "second", time=time))
 
     dut = Arithmetic([(0, 255), (0, 255)], time + 1, build, levels=levels)
     random = Random(3)
@@ -178,7 +178,7 @@ def test_at_delays_and_never_looks_ahead(time: int) -> None:
     check([(-3, 12)], time, lambda p, w: p.at(w[0], time), lambda a: a)
 
     def early(p: Pipeline, w: Sequence[Word]) -> Word:
-        word = p.input(w[0].value, 1, time=3)
+        word = p.input(w[0].value, 1, "given", time=3)
         assert p.at(word, 3) == word
         with pytest.raises(ValueError, match="time 3 is not there at time 2"):
             p.at(word, 2)
@@ -189,7 +189,7 @@ def test_at_delays_and_never_looks_ahead(time: int) -> None:
 
 def test_a_constant_needs_no_registers() -> None:
     def build(p: Pipeline, w: Sequence[Word]) -> Word:
-        constant = p.at(p.input(Const(5, 3), 5, minimum=5), 4)
+        constant = p.at(p.input(Const(5, 3), 5, "five", minimum=5), 4)
         assert isinstance(constant.value, Const)
         return p.add(p.at(w[0], 4), constant)
 

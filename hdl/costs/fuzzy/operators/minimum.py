@@ -30,4 +30,7 @@ class Minimum:
         """``min(outer, pair)`` and ``min(middle, pair)``."""
         f = choose(a.outer > pair, pair, a.outer)
         g = choose(excess(a.outer, pair, self._one).negative, pair, a.middle)
-        return pipeline.result(f.value, 0, self._one, f.time), pipeline.result(g.value, 0, self._one, g.time)
+        return (
+            pipeline.result(f.value, 0, self._one, f.time, "fires_outer"),
+            pipeline.result(g.value, 0, self._one, g.time, "fires_middle"),
+        )

@@ -49,7 +49,7 @@ class Theta(wiring.Component):
         m = Module()
         p = Pipeline(m)
         begin = start(self.operations)
-        a, b, c = (p.input(x, self.config.one, time=begin) for x in (self.a, self.b, self.c))
+        a, b, c = (p.input(getattr(self, name), self.config.one, name, time=begin) for name in "abc")
         pair = self.unit.pair(p, b, c)
         assert pair.time == begin + self.unit.pair_operations
         strength = self.unit.fire(p, a, pair)

@@ -27,27 +27,27 @@ class FoldedMemory(wiring.Component):
     Parameters
     ----------
     shape : of a word.
-    places : words.
+    depth : words.
     clocks : 1, 2, 4, ... from a word to the next, at least.
 
     Members
     -------
-    read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks later and for one clock alone.
+    read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks after ``read``, for one clock.
     write, write_at, written : a word to be stored; it is to be held for the ``clocks`` clocks that follow.
     """
 
-    def __init__(self, shape: ShapeLike, places: int, clocks: int = 1) -> None:
+    def __init__(self, shape: ShapeLike, depth: int, clocks: int = 1) -> None:
         if clocks < 1 or clocks & (clocks - 1):
             raise ValueError(f"a word takes {clocks} clocks, but a memory is folded into 1, 2, 4, ... parts")
-        self._places, self._clocks = places, clocks
+        self._depth, self._clocks = depth, clocks
         self.latency = self.latency_of(clocks)
         super().__init__(
             {
                 "read": In(1),
-                "read_at": In(range(places)),
+                "read_at": In(range(depth)),
                 "data": Out(shape),
                 "write": In(1),
-                "write_at": In(range(places)),
+                "write_at": In(range(depth)),
                 "written": In(shape),
             }
         )
@@ -55,14 +55,14 @@ class FoldedMemory(wiring.Component):
     @staticmethod
     def latency_of(clocks: int) -> int:
         """Clocks from a place to its word."""
-        return clocks + 2
+        return clocks + PackedMemory.latency
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         clocks = self._clocks
         word, data = Value.cast(self.written), Value.cast(self.data)
         part = -(-len(word) // clocks)
-        m.submodules.memory = memory = PackedMemory(unsigned(part), self._places * clocks, registered=True)
+        m.submodules.memory = memory = PackedMemory(unsigned(part), self._depth * clocks)
         turns, at = self._addressed(m, self.read, self.read_at, "read")
         m.d.comb += [memory.read.eq(Cat(*turns).any()), memory.read_at.eq(at)]
 

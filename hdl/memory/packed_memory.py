@@ -17,24 +17,25 @@ class PackedMemory(wiring.Component):
     """One write and one read port, as `SlicedMemory`, for depths that are far from a power of two.
 
     The depth is made of segments, each as deep as blocks of one width are: 2560 words of 9 bits are 2048
-    of 9 and 512 that share a block with three others. One multiplexer per bit chooses between segments,
-    behind the blocks. A word must not be read in the clock in which it is written.
+    of 9 and 512 that share a block with three others. Blocks have an output register each, and behind these
+    one multiplexer per bit chooses between segments. A word must not be read in the clock in which it is
+    written.
 
     Parameters
     ----------
     shape : of a word.
     depth : words.
-    registered : blocks have an output register each, before words are chosen from: ``data`` comes a clock
-        later and is held for one clock alone.
 
     Members
     -------
-    read, read_at, data : ``data`` is the word at ``read_at``, one clock after ``read`` was high, and held.
+    read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks after ``read``, for one clock.
     write, write_at, written : a word to be stored.
     """
 
-    def __init__(self, shape: ShapeLike, depth: int, *, registered: bool = False) -> None:
-        self._depth, self._registered = depth, registered
+    latency = 2
+
+    def __init__(self, shape: ShapeLike, depth: int) -> None:
+        self._depth = depth
         super().__init__(
             {
                 "read": In(1),
@@ -52,7 +53,6 @@ class PackedMemory(wiring.Component):
         segments = segments_of(len(word), self._depth)
         found: Value | None = None
         base = self._depth if not segments else 0
-        parts: list[tuple[int, Value]] = []
         for deep in segments:
             used = min(deep, self._depth - base)
             is_read = self._within(self.read_at, base, used)
@@ -70,21 +70,15 @@ class PackedMemory(wiring.Component):
                     write.addr.eq(self.write_at - base if base % deep else self.write_at[: len(write.addr)]),
                     write.data.eq(part),
                 ]
-                if self._registered:
-                    behind = Signal(len(part), name=f"behind_{base}_{low}", reset_less=True)
-                    m.d.sync += behind.eq(read.data)
-                    bits.append(behind)
-                else:
-                    bits.append(read.data)
+                behind = Signal(len(part), name=f"behind_{base}_{low}", reset_less=True)
+                m.d.sync += behind.eq(read.data)
+                bits.append(behind)
             chosen = Signal(name=f"chosen_{base}", reset_less=True)
             with m.If(self.read):
                 m.d.sync += chosen.eq(is_read)
-            if self._registered:
-                late = Signal(name=f"chosen_late_{base}", reset_less=True)
-                m.d.sync += late.eq(chosen)
-                chosen = late
-            parts.append((base, Cat(*bits)))
-            found = parts[-1][1] if found is None else Mux(chosen, parts[-1][1], found)
+            chosen_late = Signal(name=f"chosen_late_{base}", reset_less=True)
+            m.d.sync += chosen_late.eq(chosen)
+            found = Cat(*bits) if found is None else Mux(chosen_late, Cat(*bits), found)
             base += used
         if found is not None:
             m.d.comb += data.eq(found)

@@ -25,8 +25,7 @@ class PackedQueue(wiring.Component):
     i, o : the items, in order.
     """
 
-    _read = 2  # clocks from an address to its word
-    latency = 1 + _read + QUEUE_LATENCY
+    latency = 1 + PackedMemory.latency + QUEUE_LATENCY
     """Clocks from an item's transfer to when it is there."""
 
     def __init__(self, shape: ShapeLike, depth: int) -> None:
@@ -37,8 +36,8 @@ class PackedQueue(wiring.Component):
         m = Module()
         depth = self._depth
         new = Value.cast(self.i.payload)
-        m.submodules.memory = memory = PackedMemory(unsigned(len(new)), depth, registered=True)
-        m.submodules.queue = queue = ResultQueue(self._shape, self._read)
+        m.submodules.memory = memory = PackedMemory(unsigned(len(new)), depth)
+        m.submodules.queue = queue = ResultQueue(self._shape, PackedMemory.latency)
         write_at = Signal(range(depth))
         read_at = Signal(range(depth))
         puts = Signal()
@@ -61,7 +60,7 @@ class PackedQueue(wiring.Component):
             memory.read.eq(takes),
             memory.read_at.eq(read_at),
             queue.promised.eq(takes),
-            queue.put.eq(travelling(m, takes, self._read, "taken")[-1]),
+            queue.put.eq(travelling(m, takes, PackedMemory.latency, "taken")[-1]),
             Value.cast(queue.result).eq(memory.data),
         ]
         wiring.connect(m, queue.o, wiring.flipped(self.o))

@@ -59,7 +59,7 @@ class RowStack(wiring.Component):
         clocks = self._clocks
         parts = [-(-bits // clocks) for bits, _ in self._groups]
         word = sum(part * rows for part, (_, rows) in zip(parts, self._groups, strict=True))
-        m.submodules.memory = memory = PackedMemory(unsigned(word), self._places * clocks, registered=True)
+        m.submodules.memory = memory = PackedMemory(unsigned(word), self._places * clocks)
         happens = travelling(m, self.valid, self.latency, "valid")
         place = [
             Signal(range(self._places), name=f"place_{k}", reset_less=True) for k in range(1, self.ahead + 1)

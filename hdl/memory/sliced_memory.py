@@ -24,9 +24,11 @@ class SlicedMemory(wiring.Component):
 
     Members
     -------
-    read, read_at, data : ``data`` is the word at ``read_at``, one clock after ``read`` was high, and held.
+    read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks after ``read``, and held.
     write, write_at, written : a word to be stored.
     """
+
+    latency = 1
 
     def __init__(self, shape: ShapeLike, depth: int) -> None:
         self._depth = depth

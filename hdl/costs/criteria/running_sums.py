@@ -51,7 +51,7 @@ class RunningSums(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.memory = memory = PackedMemory(unsigned(self._sums.size), self._places, registered=True)
+        m.submodules.memory = memory = PackedMemory(unsigned(self._sums.size), self._places)
         stored = Signal()
         m.d.comb += stored.eq(self.valid & ~self.outside)
         occurs = travelling(m, stored, 5, "stored")

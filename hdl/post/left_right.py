@@ -63,7 +63,7 @@ class LeftRight(wiring.Component):
 
         # Clock 1: the left winner. Clock 2: which right one it is held against. Clock 3: that. Clock 4: the
         # difference. A right winner is written a clock late, so that the place of the oldest is read before.
-        m.submodules.winners = winners = Delay(range(disparities), disparities - 1)
+        m.submodules.winners = winners = Delay(range(disparities), disparities - 1, registers=False)
         m.d.comb += [winners.en.eq(self.valid), winners.i.eq(self.winner)]
         m.submodules.rights = rights = Memory(shape=range(disparities), depth=1 << bits, init=[])
         write = rights.write_port()

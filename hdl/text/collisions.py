@@ -4,15 +4,15 @@ import re
 
 _READ_PORT = re.compile(
     r"""(  cell \$memrd_v2 [^\n]*\n"""
-    r"""    parameter \\MEMID "\\\\slice_\d+(?:_\d+)?"\n"""
+    r"""    parameter \\MEMID "\\\\(?:slice_\d+(?:_\d+)?|ring)"\n"""
     r"""(?:    parameter [^\n]*\n)*?"""
     r"""    parameter \\COLLISION_X_MASK 1')0\n"""
 )
 
 
 def waive_collisions(rtlil: str) -> str:
-    """RTLIL in which collisions do not matter in the slices of `SlicedMemory` and `PackedMemory`, and in no
-    other memory.
+    """RTLIL in which collisions do not matter in the slices of `SlicedMemory` and `PackedMemory` and in the
+    rings of `Delay`, and in no other memory.
 
     Amaranth has no word for it, and without it yosys surrounds each block RAM with the logic that
     gives the old word to a read that meets a write.

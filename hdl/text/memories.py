@@ -9,7 +9,7 @@ _CLEARED = re.compile(
 _MODULE = re.compile(r"^module .*?^endmodule$", re.MULTILINE | re.DOTALL)
 _MEMORY = re.compile(r"^  reg (?:\[(\d+):0\] )?(\w+) \[(\d+):0\];$", re.MULTILINE)
 _READ = re.compile(r"^  reg (?:\[(\d+):0\] )?(\w+);$", re.MULTILINE)
-_SLICE = re.compile(r"^  (reg (?:\[\d+:0\] )?slice_\d+(?:_\d+)? \[\d+:0\];)$", re.MULTILINE)
+_NEVER_MET = re.compile(r"^  (reg (?:\[\d+:0\] )?(?:slice_\d+(?:_\d+)?|ring) \[\d+:0\];)$", re.MULTILINE)
 
 
 def without_zeros(rtlil: str) -> str:
@@ -30,12 +30,12 @@ def ready_to_simulate(verilog: str) -> str:
 
 
 def collisions_waived(verilog: str) -> str:
-    """Verilog text in which slices of `SlicedMemory` and `PackedMemory` are said never to be read where they
-    are written.
+    """Verilog text in which slices of `SlicedMemory` and `PackedMemory`, and rings of `Delay`, are said never
+    to be read where they are written.
 
     yosys alone knows the attribute. Without it, it builds logic that gives the word from before the write.
     """
-    return _SLICE.sub(r"  (* no_rw_check *) \1", verilog)
+    return _NEVER_MET.sub(r"  (* no_rw_check *) \1", verilog)
 
 
 def _cleared(module: str) -> str:

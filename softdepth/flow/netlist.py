@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from typing import Any
 
 Netlist = dict[str, Any]
@@ -41,6 +42,10 @@ class Nets:
     def used(self, bit: Bit) -> bool:
         """Whether anything reads a net."""
         return bool(self.readers[bit]) or bit in self.exported
+
+    def flip_flop_of(self, bit: Bit) -> str | None:
+        """The ECP5 flip-flop that drives a net."""
+        return self._flip_flops.get(bit)
 
     def register_of(self, bit: Bit) -> str | None:
         """The plain ECP5 flip-flop that drives a net."""
@@ -93,6 +98,16 @@ class Nets:
         cell["connections"][port] = [bit]
         cell["port_directions"][port] = "input"
         self.readers[bit].add((name, port))
+
+    def copy(self, name: str, output: str, bit: Bit, copy: str) -> None:
+        """Add a cell like another one but for its output, which drives the net `bit`."""
+        cell = deepcopy(self.cells[name])
+        cell["connections"][output] = [bit]
+        self.cells[copy] = cell
+        for port, bits in cell["connections"].items():
+            if port != output:
+                for read in bits:
+                    self.readers[read].add((copy, port))
 
     def remove(self, name: str) -> None:
         """Take a cell away."""

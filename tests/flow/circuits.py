@@ -77,7 +77,7 @@ class Circuit:
 
     @property
     def netlist(self) -> Netlist:
-        return {"modules": {TOP: {"ports": self._ports, "cells": self._cells}}}
+        return {"modules": {TOP: {"ports": self._ports, "cells": self._cells, "netnames": {}}}}
 
 
 def outputs(

@@ -1,7 +1,7 @@
 // ECP5 block RAM of 18 kbit: what the core's memories use of it, after Lattice's "ECP5 and ECP5-5G Memory
 // User Guide" (FPGA-TN-02204), sections on true and pseudo dual-port RAM.
 //
-// Words of 1, 2, 4, 9, 18 or 36 bits, with output registers up to 18. An address counts bits: the word is
+// Words of 1, 2, 4, 9, 18 or 36 bits, with output registers. An address counts bits: the word is
 // AD[13:0], [13:1], [13:2], [13:3], [13:4] or [13:5]; what lies below enables the bytes (of 9 bits) of a
 // write of 18 or 36 bits. Words below 9 bits leave the ninth bit of a byte unused. A port of 36 bits takes
 // the data pins of both ports, A's for the lower half.
@@ -44,8 +44,8 @@ module DP16KD (
     if (!is_modelled(DATA_WIDTH_A) || !is_modelled(DATA_WIDTH_B)) $fatal(1, "this word width is not modelled");
     if (REGMODE_A != "NOREG" && REGMODE_A != "OUTREG") $fatal(1, "this register mode is not modelled");
     if (REGMODE_B != "NOREG" && REGMODE_B != "OUTREG") $fatal(1, "this register mode is not modelled");
-    if ((DATA_WIDTH_A == 36 || DATA_WIDTH_B == 36) && (REGMODE_A != "NOREG" || REGMODE_B != "NOREG"))
-      $fatal(1, "output registers of words of 36 bits are not modelled");
+    if ((DATA_WIDTH_A == 36 || DATA_WIDTH_B == 36) && REGMODE_A != REGMODE_B)
+      $fatal(1, "an output register for half of a word is not modelled");
     if (WRITEMODE_A != "NORMAL" && WRITEMODE_A != "READBEFOREWRITE") $fatal(1, "this write mode is not modelled");
     if (WRITEMODE_B != "NORMAL" && WRITEMODE_B != "READBEFOREWRITE") $fatal(1, "this write mode is not modelled");
     if (CSDECODE_A != "0b000" || CSDECODE_B != "0b000") $fatal(1, "this chip select is not modelled");
@@ -154,6 +154,10 @@ module DP16KD (
       read_b <= gather(DATA_WIDTH_B, adb, clash_b ? ~row_b : row_b);
   end
 
+  // Two ports of up to 18 bits have pins of their own; a word of 36 bits is read through B, over both, and
+  // each half has the registers and the clock enable of its pins.
+  wire [17:0] pins_a = DATA_WIDTH_B == 36 ? read_b[17:0] : read_a[17:0];
+  wire [17:0] pins_b = DATA_WIDTH_B == 36 ? read_b[35:18] : read_b[17:0];
   reg [17:0] held_a, held_b;
   initial begin
     held_a = 18'd0;
@@ -161,14 +165,13 @@ module DP16KD (
   end
   always @(posedge CLKA)
     if (RSTA) held_a <= 18'd0;
-    else if (OCEA) held_a <= read_a[17:0];
+    else if (OCEA) held_a <= pins_a;
   always @(posedge CLKB)
     if (RSTB) held_b <= 18'd0;
-    else if (OCEB) held_b <= read_b[17:0];
+    else if (OCEB) held_b <= pins_b;
 
-  // Two ports of up to 18 bits have pins of their own; a word of 36 bits is read through B, over both.
-  wire [17:0] doa = DATA_WIDTH_B == 36 ? read_b[17:0] : REGMODE_A == "OUTREG" ? held_a : read_a[17:0];
-  wire [17:0] dob = DATA_WIDTH_B == 36 ? read_b[35:18] : REGMODE_B == "OUTREG" ? held_b : read_b[17:0];
+  wire [17:0] doa = REGMODE_A == "OUTREG" ? held_a : pins_a;
+  wire [17:0] dob = REGMODE_B == "OUTREG" ? held_b : pins_b;
   assign {DOA17, DOA16, DOA15, DOA14, DOA13, DOA12, DOA11, DOA10, DOA9} = doa[17:9];
   assign {DOA8, DOA7, DOA6, DOA5, DOA4, DOA3, DOA2, DOA1, DOA0} = doa[8:0];
   assign {DOB17, DOB16, DOB15, DOB14, DOB13, DOB12, DOB11, DOB10, DOB9} = dob[17:9];

@@ -4,9 +4,13 @@ import gc
 from random import Random
 
 import pytest
+from amaranth.back import rtlil
 from amaranth.lib import data
+from amaranth.lib.memory import Memory
+from amaranth.sim import Simulator
 
 from softdepth.hdl.memory.delay import CHAINED, DEEP, REGISTER_LIMIT, SHORT, Delay
+from softdepth.hdl.text.collisions import waive_collisions
 from tests.support.simulation import observe
 
 
@@ -57,3 +61,44 @@ def test_refuses_to_look_ahead() -> None:
     with pytest.raises(ValueError, match="depth is -1"):
         Delay(1, -1)
     gc.collect()  # Amaranth complains of the half-made object when it goes, which is to be now
+
+
+@pytest.mark.parametrize("depth", [2, DEEP, CHAINED + 3])
+@pytest.mark.parametrize("registers", [None, False])
+@pytest.mark.parametrize("rate", [1.0, 0.6])
+def test_a_ring_is_never_read_where_it_is_written(
+    depth: int, registers: bool | None, rate: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Synthesis is told so, and builds nothing that gives the old word."""
+    pairs: list[list] = []
+
+    class Watched(Memory):
+        def write_port(self, **kwargs):
+            pairs.append([port := super().write_port(**kwargs)])
+            return port
+
+        def read_port(self, **kwargs):
+            pairs[-1].append(port := super().read_port(**kwargs))
+            return port
+
+    monkeypatch.setattr("softdepth.hdl.memory.delay.Memory", Watched)
+    dut = Delay(4, depth, registers=registers)
+    simulator = Simulator(dut)
+    simulator.add_clock(1e-6)
+    random, met = Random(depth), []
+
+    async def bench(ctx) -> None:
+        for _ in range(3 * depth + 20):
+            ctx.set(dut.en, random.random() < rate)
+            met.extend(
+                ctx.get(write.addr)
+                for write, read in pairs
+                if ctx.get(write.en & read.en & (write.addr == read.addr))
+            )
+            await ctx.tick()
+
+    simulator.add_testbench(bench)
+    simulator.run()
+    assert pairs or (registers is None and depth <= REGISTER_LIMIT)
+    assert met == []
+    assert "COLLISION_X_MASK 1'0" not in waive_collisions(rtlil.convert(dut, emit_src=False))

@@ -1,7 +1,8 @@
-"""Lattice's ECP5, with three netlist passes that yosys lacks."""
+"""Lattice's ECP5, with four netlist passes that yosys lacks."""
 
 import re
 
+from softdepth.flow.families.ecp5.copies import copy_registers
 from softdepth.flow.families.ecp5.fuse import fuse_carries
 from softdepth.flow.families.ecp5.multiplier_registers import absorb_multiplier_registers
 from softdepth.flow.families.ecp5.ram_registers import absorb_ram_registers
@@ -18,7 +19,7 @@ class Ecp5(Family):
     placer = "nextpnr-ecp5"
     packer = "ecppack"
     suffix = ".bit"
-    passes = (fuse_carries, absorb_ram_registers, absorb_multiplier_registers)
+    passes = (fuse_carries, absorb_ram_registers, absorb_multiplier_registers, copy_registers)
 
     def synthesis(self, top: str) -> str:
         return f"synth_ecp5 -top {top}"

@@ -13,26 +13,28 @@ def absorb_ram_registers(netlist: Netlist) -> int:
 
     Without them a block RAM takes most of a 100 MHz clock to show its word. Yosys does not use them.
     Returns how many flip-flops went. A port's registers have one clock enable and no reset here:
-    flip-flops with others, or outputs that something else reads too, leave the port as it is.
+    flip-flops with others, or outputs that something else reads too, leave the port as it is. A word of
+    36 bits comes from both ports' outputs: both get the clock enable, and either none or all are registered.
     """
     removed = 0
     for module in netlist["modules"].values():
         nets = Nets(module)
-        for cell in [cell for cell in nets.cells.values() if cell["type"] == RAM and not _double(cell)]:
-            removed += sum(_absorb(nets, cell, side) for side in "AB")
+        for cell in [cell for cell in nets.cells.values() if cell["type"] == RAM]:
+            removed += sum(_absorb(nets, cell, sides) for sides in (["AB"] if _double(cell) else ["A", "B"]))
     return removed
 
 
-def _absorb(nets: Nets, cell: Cell, side: str) -> int:
-    registers = nets.registers_behind(cell, (f"DO{side}{k}" for k in range(OUTPUTS)))
+def _absorb(nets: Nets, cell: Cell, sides: str) -> int:
+    registers = nets.registers_behind(cell, (f"DO{side}{k}" for side in sides for k in range(OUTPUTS)))
     control = nets.common_control(registers.values())
-    if control is None or cell["parameters"][f"REGMODE_{side}"] != "NOREG":
+    if control is None or any(cell["parameters"][f"REGMODE_{side}"] != "NOREG" for side in sides):
         return 0
     clock, enable = control
-    if [clock] != cell["connections"][f"CLK{side}"]:
+    if any([clock] != cell["connections"][f"CLK{side}"] for side in sides):
         return 0
-    cell["parameters"][f"REGMODE_{side}"] = "OUTREG"
-    cell["connections"][f"OCE{side}"] = [enable]
+    for side in sides:
+        cell["parameters"][f"REGMODE_{side}"] = "OUTREG"
+        cell["connections"][f"OCE{side}"] = [enable]
     nets.take_in(cell, registers)
     return len(registers)
 

@@ -18,7 +18,7 @@ CAMERAS := --focal 994.978 --baseline 0.193001 --doffs 31.086 --principal 311.19
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-fast test-full soak formal mutation bench compare accuracy paper inspections bitstream boards program utilization savings pixel-a-clock lint format types docs lock export reading registers readme clean distclean preflight
+.PHONY: help demo test test-fast test-full soak formal mutation coverage bench compare accuracy paper inspections bitstream boards program utilization savings pixel-a-clock lint format types docs lock export reading registers readme clean distclean preflight
 
 help: ## list these tasks
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -46,6 +46,9 @@ formal: $(READY) ## every proof, at its full depth: docs/verification.md says of
 
 mutation: $(READY) ## faults in small cores, and which the quick regression finds: docs/verification.md
 	@$(BIN)/python -m tests.mutation
+
+coverage: $(READY) ## lines and bits of small cores that the quick regression reaches: docs/verification.md
+	@$(BIN)/python -m tests.cover
 
 bench: $(READY) ## measure speed and write docs/benchmarks.md
 	@$(BIN)/softdepth bench

@@ -11,6 +11,9 @@
 
 #include "Vtop.h"
 #include "verilated.h"
+#if VM_COVERAGE
+#include "verilated_cov.h"
+#endif
 
 namespace {
 
@@ -119,6 +122,14 @@ class Bench {
         return "";
     }
 
+    void cover(const char* path) {
+#if VM_COVERAGE
+        context.coveragep()->write(path);
+#else
+        (void)path;
+#endif
+    }
+
     uint64_t clocks = 0;
 
   private:
@@ -155,6 +166,7 @@ int main(int count, char** words) {
         std::printf("%llu %zu %llu %s\n", (unsigned long long)mutant, number, (unsigned long long)bench.clocks,
                     wrong.c_str());
         std::fflush(stdout);
+        if (const char* path = std::getenv("SOFTDEPTH_COVERAGE")) bench.cover(path);
     }
     return 0;
 }

@@ -4,6 +4,7 @@ For regressions of many designs that differ a little, such as one netlist with f
 `softdepth.sim.frames` is for pictures.
 """
 
+import os
 import re
 import subprocess
 import tempfile
@@ -18,6 +19,9 @@ from softdepth.spec.errors import ToolError
 
 FAULTS = "mutant"
 """The input that selects a fault, where a design has it."""
+
+COVERAGE_VARIABLE = "SOFTDEPTH_COVERAGE"
+"""Names the bench's file of coverage."""
 
 LONGEST = 64
 """Bits of a payload that the bench can drive."""
@@ -85,12 +89,25 @@ class Verdict(NamedTuple):
     clocks: int
 
 
-def run_trials(verilog: str, trials: Sequence[Trial], faults: Sequence[int] = ()) -> list[Verdict]:
+class Coverage(NamedTuple):
+    """What Verilator shall count, ``line`` or ``toggle``, and the file for its counts."""
+
+    kind: str
+    file: Path
+
+
+def run_trials(
+    verilog: str,
+    trials: Sequence[Trial],
+    faults: Sequence[int] = (),
+    *,
+    coverage: Coverage | None = None,
+) -> list[Verdict]:
     """Run all trials one after the other on one simulated core, up to the first that fails.
 
     With `faults`, once for each value of the design's input `FAULTS`: a verdict each, in that order.
-    Registers and memories without a reset begin with random bits. Raises `ToolError` for a failed build or a
-    bench that stops.
+    Registers and memories without a reset begin with random bits. With `coverage`, what was reached is
+    counted, too. Raises `ToolError` for a failed build or a bench that stops.
     """
     bits = {name: int(top) + 1 for top, name in re.findall(r"^\s*input \[(\d+):0\] (\w+);", verilog, re.M)}
     longest = bits["i_payload"]
@@ -101,14 +118,19 @@ def run_trials(verilog: str, trials: Sequence[Trial], faults: Sequence[int] = ()
         )
     defines = [f"#define I_MASK {(1 << longest) - 1}ULL", *(["#define MUTANTS"] if FAULTS in bits else [])]
     # If a fault inverts one bit by another, a word depends on itself, although its bits do not.
-    flags = ("-Wno-UNOPTFLAT", "--x-initial", "unique")
+    flags = ["-Wno-UNOPTFLAT", "--x-initial", "unique"]
+    environment = dict(os.environ)
+    if coverage:
+        flags.append(f"--coverage-{coverage.kind}")
+        environment[COVERAGE_VARIABLE] = str(coverage.file)
     text = resources.files("softdepth.sim").joinpath("trials.cpp").read_text()
-    program = build(verilog, bench=Bench("\n".join([*defines, text]), flags))
+    program = build(verilog, bench=Bench("\n".join([*defines, text]), tuple(flags)))
     with tempfile.TemporaryDirectory(prefix="softdepth-trials-") as name:
         job = Path(name) / "trials"
         job.write_text("\n".join(trial.text() for trial in trials))
         done = subprocess.run(
             [str(program.folder / TOP), str(job), *map(str, faults)],
+            env=environment,
             capture_output=True,
             text=True,
             check=False,

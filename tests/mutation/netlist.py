@@ -21,12 +21,13 @@ SELECT_BITS = 16
 SPARE = 3
 """Faults that are drawn for each that is wanted: some are none, and are left out."""
 
-PREPARED = (
+SIMPLIFIED = (
     f"read_rtlil core.il; hierarchy -top {TOP}; proc; flatten;"
     # yosys' pass for flip-flops stumbles over wires that others have joined: these are tidied up first.
     " opt_merge; opt_clean; opt_dff; opt_clean;"
-    " opt -full; wreduce; opt_clean -purge; memory_collect; splitcells; opt_clean -purge"
+    " opt -full; wreduce; opt_clean -purge; memory_collect"
 )
+PREPARED = f"{SIMPLIFIED}; splitcells; opt_clean -purge"
 """Bits that nothing sees are gone then: a fault in them would be none."""
 
 ROOMS = ("front", "costs", "winners")

@@ -79,6 +79,7 @@ def regression(config: Config, seed: int = 0, *, thorough: bool = True) -> list[
     trials.append(broken(config, marked_later(config), seed))
     trials += [pale(config, seed + 80 + k) for k in range(PALE // fewer)]
     trials += [broken(config, counted(config, times // fewer), seed) for times in FAULTS]
+    trials.append(broken(config, overfull(config), seed))
     trials += [speckled(config, seed + 100 + k) for k in range(SPECKLED // fewer)]
     trials += [broken(config, shortened(config, seed + k), seed + k) for k in range(SHORTENED // fewer)]
     return trials
@@ -139,6 +140,13 @@ def marked_later(config: Config) -> Stream:
     width, height = config.min_width + 1, config.max_height // 2
     learnt = good_frame(width, height, eof=False) * 3
     return [*learnt, *chain.from_iterable(good_frame(width, height + k, eof=True) for k in (0, 2, 1))]
+
+
+def overfull(config: Config) -> Stream:
+    """Frames as high as can be, of whose last lines one is short, one long, and all without an end."""
+    width = config.min_width + 1
+    frame = good_frame(width, config.max_height, eof=False)
+    return [*frame[:-2], frame[-1], *frame, *frame[:-1], Sent(0), *frame[-1:], *good_frame(width, 1, eof=True)]
 
 
 def counted(config: Config, times: int) -> Stream:

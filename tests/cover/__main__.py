@@ -1,7 +1,7 @@
 """``python -m tests.cover``: what the quick regression reaches of small cores, line by line and bit by bit.
 
-Writes a part of docs/verification.md, and all that is not reached into out/coverage. Fails where some of that is
-not explained in explained.toml.
+Writes a part of docs/verification.md, and all that is not reached into out/coverage. Fails where some of
+that is not explained in explained.toml.
 """
 
 import sys

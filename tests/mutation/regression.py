@@ -146,7 +146,8 @@ def overfull(config: Config) -> Stream:
     """Frames as high as can be, of whose last lines one is short, one long, and all without an end."""
     width = config.min_width + 1
     frame = good_frame(width, config.max_height, eof=False)
-    return [*frame[:-2], frame[-1], *frame, *frame[:-1], Sent(0), *frame[-1:], *good_frame(width, 1, eof=True)]
+    short, long = [*frame[:-2], frame[-1]], [*frame[:-1], Sent(0), frame[-1]]
+    return [*short, *frame, *long, *good_frame(width, 1, eof=True)]
 
 
 def counted(config: Config, times: int) -> Stream:

@@ -4,11 +4,9 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.memory.folded_memory import FoldedMemory
-from softdepth.hdl.memory.line_column import LineColumn
-from softdepth.hdl.memory.pace import Pace
 from softdepth.hdl.memory.window import MARKERS, raster_layout
+from softdepth.hdl.memory.window_slots import WindowSlots
 
 
 class TallWindow(wiring.Component):
@@ -77,73 +75,17 @@ class TallWindow(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         reach, depth, after, across = self._reach, self._depth, self._after, self._across
-        item = self.i.payload
-
-        # A slot begins when a column enters: a new one, or the one before again.
-        at_line_start = Signal(init=1)
-        column_at = LineColumn(m, self._max_width)
-        x = column_at.x
-        below = Countdown(m, reach + after, "below")  # lines behind the frame, this one included
-        repeats = Countdown(m, reach, "repeats")
-        # Columns of the line up to a whole window, and rows of the frame up to the first that has a result.
-        # Frames are whole: both are set at the end of what came before.
-        unfilled = Countdown(m, 2 * reach, "unfilled", init=2 * reach)
-        unripe = Countdown(m, reach, "unripe", init=reach)
-        after_last = Signal()  # the repeats are of the line's last column
-        in_first_row = Signal()
-        fresh = Signal()  # no result of the frame has left
-        ended = Signal()  # the frame's last pixel was taken
-        damaged = Signal()
-
-        slot = Pace(
+        slots = WindowSlots(
             m,
-            self.clocks,
-            credit=self.credit,
-            valid=self.i.valid,
-            ready=self.i.ready,
-            beyond=repeats.some | below.some,
-        ).slot
-        # What a slot is if there is one.
-        new, own, first, last, starts, line_over, emits = (
-            Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over", "emits")
+            self.i,
+            self.credit,
+            rows=reach,
+            columns=reach,
+            after=after,
+            max_width=self._max_width,
+            clocks=self.clocks,
         )
-        m.d.comb += [
-            new.eq(~repeats.some),
-            own.eq(new & ~below.some),
-            first.eq(new & at_line_start),
-            last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
-            starts.eq(own & item.sof),
-            line_over.eq(repeats.last & after_last),
-            emits.eq(~unripe.some & ~unfilled.some),
-            self.promised.eq(slot & emits),
-        ]
-        with m.If(slot):
-            with m.If(unfilled.some):
-                unfilled.step()
-            with m.If(new):
-                m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
-                column_at.step(last)
-                with m.If(first | last):
-                    repeats.start(reach)
-            with m.Else():
-                repeats.step()
-            with m.If(starts):
-                m.d.sync += [in_first_row.eq(1), fresh.eq(1)]
-            with m.If(own):
-                m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
-            with m.If(line_over):
-                m.d.sync += in_first_row.eq(0)
-                unfilled.start(2 * reach)
-                with m.If(unripe.some):
-                    unripe.step()
-                with m.If(below.some):
-                    below.step()
-                with m.Elif(ended):
-                    below.start(reach + after)
-                with m.If(below.last):
-                    unripe.start(reach)
-            with m.If(emits):
-                m.d.sync += fresh.eq(0)
+        m.d.comb += self.promised.eq(slots.slot & slots.emits)
 
         # When the memory's word is there, when the column, and when the window.
         found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
@@ -156,18 +98,18 @@ class TallWindow(wiring.Component):
         pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
         along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
-            happens[0].new.eq(slot & new),
-            happens[0].slot.eq(slot),
+            happens[0].new.eq(slots.slot & slots.new),
+            happens[0].slot.eq(slots.slot),
             happens[0].emits.eq(self.promised),
-            stages[0].top.eq(starts | in_first_row),
-            stages[0].flushing.eq(below.some),
-            stages[0].x.eq(x),
-            stages[0].sof.eq(fresh),
-            stages[0].eol.eq(line_over),
-            stages[0].eof.eq(line_over & (below.left == after + 1)),
-            stages[0].damaged.eq(damaged),
-            pixel[0].eq(item.element),
-            along[0].eq(item.companion),
+            stages[0].top.eq(slots.top),
+            stages[0].flushing.eq(slots.below.some),
+            stages[0].x.eq(slots.x),
+            stages[0].sof.eq(slots.sof),
+            stages[0].eol.eq(slots.line_over),
+            stages[0].eof.eq(slots.eof),
+            stages[0].damaged.eq(slots.damage),
+            pixel[0].eq(self.i.payload.element),
+            along[0].eq(self.i.payload.companion),
         ]
         for k in range(there):
             m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]

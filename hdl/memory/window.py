@@ -4,10 +4,8 @@ from amaranth.hdl import Cat, Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.arithmetic.countdown import Countdown
 from softdepth.hdl.memory.folded_memory import FoldedMemory
-from softdepth.hdl.memory.line_column import LineColumn
-from softdepth.hdl.memory.pace import Pace
+from softdepth.hdl.memory.window_slots import WindowSlots
 
 MARKERS = ("sof", "eol", "eof", "damaged")
 """A raster's markers: first pixel, last of a line, last of all, and whether the frame was mended so far."""
@@ -83,81 +81,22 @@ class Window(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         rows, columns, height, across = self._rows, self._columns, self._height, self._across
-        item = self.i.payload
-
-        # A slot begins when a column enters: a new one, or the one before again.
-        at_line_start = Signal(init=1)
-        column_at = LineColumn(m, self._max_width)
-        x = column_at.x
-        below = Countdown(m, rows, "below")  # rows below the frame, this one included
-        repeats = Countdown(m, columns, "repeats")
-        # Columns of the line up to a whole window, and rows of the frame up to the first that has a result.
-        # Frames are whole: both are set at the end of what came before.
-        unfilled = Countdown(m, 2 * columns, "unfilled", init=2 * columns)
-        unripe = Countdown(m, rows, "unripe", init=rows)
-        after_last = Signal()  # the repeats are of the line's last column
-        frame_rows = Signal(height)  # which rows of the column lie inside the frame
-        in_first_row = Signal()
-        fresh = Signal()  # no result of the frame has left
-        ended = Signal()  # the frame's last pixel was taken
-        damaged = Signal()
-
-        slot = Pace(
+        slots = WindowSlots(
             m,
-            self.clocks,
-            credit=self.credit,
-            valid=self.i.valid,
-            ready=self.i.ready,
-            beyond=repeats.some | below.some,
-        ).slot
-        # What a slot is if there is one.
-        new, own, first, last, starts, line_over = (
-            Signal(name=name) for name in ("new", "own", "first", "last", "starts", "line_over")
+            self.i,
+            self.credit,
+            rows=rows,
+            columns=columns,
+            max_width=self._max_width,
+            clocks=self.clocks,
         )
-        emits, ends, final = (Signal(name=name) for name in ("emits", "ends", "final"))
-        m.d.comb += [
-            new.eq(~repeats.some),
-            own.eq(new & ~below.some),
-            first.eq(new & at_line_start),
-            last.eq(new & Mux(below.some, column_at.is_last, item.eol)),
-            starts.eq(own & item.sof),
-            line_over.eq(repeats.last & after_last if columns else last),
-            emits.eq(~unripe.some & ~unfilled.some),
-            # Rows end with their last repeat; what follows from it is not looked at before.
-            ends.eq(Mux(own, item.eof, ended)),
-            final.eq(below.last | (~below.some & ends if rows == 0 else 0)),
-            self.promised.eq(slot & emits),
-        ]
-        with m.If(slot):
-            with m.If(unfilled.some):
-                unfilled.step()
-            with m.If(new):
-                m.d.sync += [at_line_start.eq(last), after_last.eq(last)]
-                column_at.step(last)
-                with m.If(first | last):
-                    repeats.start(columns)
-            with m.Else():
-                repeats.step()
-            with m.If(starts):
-                m.d.sync += [frame_rows.eq(1 << (height - 1)), in_first_row.eq(1), fresh.eq(1)]
-            with m.If(own):
-                m.d.sync += [damaged.eq(item.damaged | (damaged & ~starts)), ended.eq(item.eof)]
-            with m.If(line_over):
-                m.d.sync += [
-                    frame_rows.eq(Cat(frame_rows[1:], ~below.some & ~ends)),
-                    in_first_row.eq(0),
-                ]
-                unfilled.start(2 * columns)
-                with m.If(unripe.some):
-                    unripe.step()
-                with m.If(below.some):
-                    below.step()
-                with m.Elif(ends):
-                    below.start(rows)
-                with m.If(final):
-                    unripe.start(rows)
-            with m.If(emits):
-                m.d.sync += fresh.eq(0)
+        slot, below = slots.slot, slots.below
+        m.d.comb += self.promised.eq(slot & slots.emits)
+        frame_rows = Signal(height)  # which rows of the column lie inside the frame
+        with m.If(slot & slots.starts):
+            m.d.sync += frame_rows.eq(1 << (height - 1))
+        with m.If(slot & slots.line_over):
+            m.d.sync += frame_rows.eq(Cat(frame_rows[1:], ~below.some & ~slots.ended))
 
         # When the memory's word is there, when the column, and when the window.
         found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
@@ -180,21 +119,20 @@ class Window(wiring.Component):
         pixel = [Signal(self._element, name=f"pixel_{k}", reset_less=True) for k in range(found + 1)]
         along = [Signal(self._companion, name=f"along_{k}", reset_less=True) for k in range(found + 1)]
         m.d.comb += [
-            happens[0].new.eq(slot & new),
+            happens[0].new.eq(slot & slots.new),
             happens[0].slot.eq(slot),
             happens[0].emits.eq(self.promised),
-            stages[0].top.eq(starts | in_first_row),
+            stages[0].top.eq(slots.top),
             stages[0].flushing.eq(below.some),
-            # Of the copies of a line's first column the last is the pixel, of those of its last the first.
-            stages[0].inside.eq(Mux(new, ~first | (columns == 0), repeats.last & ~after_last)),
-            stages[0].x.eq(x),
-            stages[0].rows.eq(Mux(starts, 1 << (height - 1), frame_rows)),
-            stages[0].sof.eq(fresh | (starts & (rows == 0))),
-            stages[0].eol.eq(line_over),
-            stages[0].eof.eq(line_over & final),
-            stages[0].damaged.eq(Mux(own, item.damaged | (damaged & ~starts), damaged)),
-            pixel[0].eq(item.element),
-            along[0].eq(item.companion),
+            stages[0].inside.eq(slots.inside),
+            stages[0].x.eq(slots.x),
+            stages[0].rows.eq(Mux(slots.starts, 1 << (height - 1), frame_rows)),
+            stages[0].sof.eq(slots.sof),
+            stages[0].eol.eq(slots.line_over),
+            stages[0].eof.eq(slots.eof),
+            stages[0].damaged.eq(slots.damaged),
+            pixel[0].eq(self.i.payload.element),
+            along[0].eq(self.i.payload.companion),
         ]
         for k in range(there):
             m.d.sync += [stages[k + 1].eq(stages[k]), happens[k + 1].eq(happens[k])]

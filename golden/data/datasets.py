@@ -33,7 +33,7 @@ _SYNTHETIC = re.compile(
 
 
 @dataclass(frozen=True)
-class _Middlebury:
+class MiddleburyScene:
     """A scene: where it is, its truth's gray levels per pixel, and the SHA-256 of each file's pixels."""
 
     url: str
@@ -41,9 +41,8 @@ class _Middlebury:
     pixels: dict[str, str]
 
 
-# The sums are over decoded pixels, because archives and mirrors re-encode the files.
-_MIDDLEBURY = {
-    "teddy": _Middlebury(
+MIDDLEBURY = {
+    "teddy": MiddleburyScene(
         f"{_SITE}/scenes2003/newdata/teddy",
         4,
         {
@@ -53,7 +52,7 @@ _MIDDLEBURY = {
             "disp6.png": "845074a5c4051c686bb9d7f04a6ca4ea8657a5338ed30e50fcddd3b5617889d1",
         },
     ),
-    "cones": _Middlebury(
+    "cones": MiddleburyScene(
         f"{_SITE}/scenes2003/newdata/cones",
         4,
         {
@@ -63,7 +62,7 @@ _MIDDLEBURY = {
             "disp6.png": "e83439fdffddf79c27a534c472d93f1f573e8710255668c1654ae28c9fc6b219",
         },
     ),
-    "venus": _Middlebury(
+    "venus": MiddleburyScene(
         f"{_SITE}/scenes2001/data/venus",
         8,
         {
@@ -73,11 +72,12 @@ _MIDDLEBURY = {
         },
     ),
 }
+"""The scenes by name. Sums are over decoded pixels, because archives and mirrors re-encode the files."""
 
 
 def names() -> tuple[str, ...]:
     """Every dataset's name; a synthetic one may be followed by ``@WIDTHxHEIGHTxDISPARITIES#SEED``."""
-    return (DEFAULT, *(f"middlebury:{s}" for s in _MIDDLEBURY), *(f"synthetic:{s}" for s in SCENES))
+    return (DEFAULT, *(f"middlebury:{s}" for s in MIDDLEBURY), *(f"synthetic:{s}" for s in SCENES))
 
 
 def load(name: str = DEFAULT, reference: View = "left") -> StereoPair:
@@ -97,7 +97,7 @@ def load(name: str = DEFAULT, reference: View = "left") -> StereoPair:
     family, _, rest = name.partition(":")
     if name == DEFAULT:
         return _motorcycle(reference)
-    if family == "middlebury" and rest in _MIDDLEBURY:
+    if family == "middlebury" and rest in MIDDLEBURY:
         return _middlebury(rest, reference)
     if family == "synthetic" and (match := _SYNTHETIC.fullmatch(rest)) and match["scene"] in SCENES:
         numbers = {k: int(v) for k, v in match.groupdict().items() if k != "scene" and v is not None}
@@ -114,7 +114,7 @@ def _motorcycle(reference: View) -> StereoPair:
 
 
 def _middlebury(scene: str, reference: View) -> StereoPair:
-    spec = _MIDDLEBURY[scene]
+    spec = MIDDLEBURY[scene]
     images = {Path(file).stem: _fetch(scene, file) for file in spec.pixels}
     gray = {
         view: images[stem][:, :, 0]
@@ -155,7 +155,7 @@ def _fetch(scene: str, file: str) -> np.ndarray:
         pixels = np.ascontiguousarray(read_raster(path).values)
     except InputError as error:
         raise InputError(problem, remedy) from error
-    if pixel_sum(pixels) != _MIDDLEBURY[scene].pixels[file]:
+    if pixel_sum(pixels) != MIDDLEBURY[scene].pixels[file]:
         raise InputError(problem, remedy)
     return pixels
 
@@ -178,7 +178,7 @@ def _download(scene: str, file: str) -> Path:
     pooch.get_logger().setLevel("WARNING")
     try:
         path = pooch.retrieve(
-            f"{_MIDDLEBURY[scene].url}/{file}",
+            f"{MIDDLEBURY[scene].url}/{file}",
             known_hash=None,  # the pixels are checked instead
             fname=file,
             path=cache,

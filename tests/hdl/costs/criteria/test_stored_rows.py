@@ -1,13 +1,13 @@
 """How many rows of a window are remembered: what a configuration accepts, and what follows from it."""
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
-from amaranth.hdl import Fragment
 
 from softdepth.hdl.core import StereoCore
-from softdepth.hdl.front.line_buffer import LineBuffer
+from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.spec.config import PRESETS, Config
 from softdepth.spec.errors import ConfigError
 from tests.support.simulation import config, sad
@@ -77,16 +77,12 @@ def test_places_of_a_line(steps: int) -> None:
 
 
 @pytest.mark.parametrize("stored", [0, 3, 6])
-def test_the_line_buffer_holds_the_computed_rows_only(stored: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What lanes remember, the line buffer need not."""
-    made: list[int] = []
-
-    class Noted(LineBuffer):
-        def __init__(self, width: int, rows: int, max_width: int) -> None:
-            made.append(rows)
-            super().__init__(width, rows, max_width)
-
-    monkeypatch.setattr("softdepth.hdl.costs.band_costs.LineBuffer", Noted)
+def test_the_line_buffer_holds_the_computed_rows_only(stored: int) -> None:
+    """What lanes remember, the line buffer need not: its memory is as wide as all rows but the newest."""
     c = config(disparities=4, lanes=2, stored_rows=stored)
-    Fragment.get(StereoCore(c), None)
-    assert made == [7 - stored]
+    text = to_rtlil(StereoCore(c), "core")
+    lines = re.search(r"^module \\core\.costs\S*\.lines\n", text, re.MULTILINE)
+    assert lines, "it is looked for in the wrong place"
+    slices = re.findall(r"^module \\core\.costs\S*\.lines\.lines\n.*?^end$", text, re.DOTALL | re.MULTILINE)
+    words = re.findall(r"^  memory width (\d+) size (\d+)", "".join(slices), re.MULTILINE)
+    assert sum(int(bits) for bits, _ in words) == 2 * c.pixel.size * (6 - stored)

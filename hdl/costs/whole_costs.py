@@ -87,7 +87,7 @@ class WholeCosts(wiring.Component):
             }
         )
 
-    waits = ItemQueue.latency
+    waits = 2 * ItemQueue.latency
     """Clocks from a pixel's arrival to its slot's beginning, at least."""
 
     @property
@@ -114,9 +114,12 @@ class WholeCosts(wiring.Component):
             drain=self._drain,
             first=config.reach_left,
         )
-        # The slots' decision is late in its clock, and does not go on from here to a wide queue's output.
+        # The slots' decision is late in its clock, and does not go on from here to a wide queue's output, as
+        # that is far away: there are places at both ends.
+        m.submodules.arrived = arrived = ItemQueue(self._descriptors)
         m.submodules.places = places = ItemQueue(self._descriptors)
-        wiring.connect(m, wiring.flipped(self.i), places.i)
+        wiring.connect(m, wiring.flipped(self.i), arrived.i)
+        wiring.connect(m, arrived.o, places.i)
         m.d.comb += [
             slots.i.valid.eq(places.o.valid),
             places.o.ready.eq(slots.i.ready),

@@ -8,7 +8,7 @@ from amaranth.lib.wiring import In, Out
 class ItemQueue(wiring.Component):
     """Two places, so that neither side's logic reaches through to the other: one item a clock.
 
-    Items go to the places in turn. An empty place takes whatever is offered, so that registers alone decide
+    Items go to the places in turn. An empty place takes whatever is offered, so that a register alone decides
     over its many bits, which may lie far away; ``i.ready`` and ``o.valid`` are registers too.
 
     Parameters
@@ -43,13 +43,19 @@ class ItemQueue(wiring.Component):
             self.o.valid.eq(holding),
             self.o.payload.eq(places[oldest]),
         ]
-        for number, place in enumerate(places):
-            with m.If(~full & ~(holding & (oldest == number))):
-                m.d.sync += place.eq(self.i.payload)
-        m.d.sync += [
-            holding.eq(comes | full | (holding & ~goes)),
-            full.eq(~goes & (full | (comes & holding))),
+        # `holding`, `full` and `oldest` in the next clock.
+        held = Signal()
+        both = Signal()
+        next_out = Signal()
+        m.d.comb += [
+            held.eq(comes | full | (holding & ~goes)),
+            both.eq(~goes & (full | (comes & holding))),
+            next_out.eq(oldest ^ goes),
         ]
-        with m.If(goes):
-            m.d.sync += oldest.eq(~oldest)
+        m.d.sync += [holding.eq(held), full.eq(both), oldest.eq(next_out)]
+        for number, place in enumerate(places):
+            empty = Signal(name=f"empty_{number}", init=1)
+            m.d.sync += empty.eq(~both & ~(held & (next_out == number)))
+            with m.If(empty):
+                m.d.sync += place.eq(self.i.payload)
         return m

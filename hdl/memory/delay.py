@@ -1,6 +1,6 @@
 """A delay counted in enabled clocks."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal
+from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -83,8 +83,6 @@ class Delay(wiring.Component):
         # The word that the next enabled clock takes away must be there when it comes.
         written = Signal(range(self._depth))
         shown = Signal(range(self._depth), init=1 if self._in_ram else 0)
-        last = shown if self._in_ram else written
-        following = Mux(last == self._depth - 1, 0, last + 1)
         m.d.comb += [
             write.en.eq(self.en),
             write.addr.eq(written),
@@ -93,12 +91,18 @@ class Delay(wiring.Component):
             self.o.eq(read.data),
         ]
         if self._in_ram:
-            # Nothing stands before a distributed RAM, whose word goes to registers in the same clock.
+            # Nothing stands before a distributed RAM, whose word goes to registers in the same clock. Places
+            # are counted apart from where they are read by many.
+            place = Signal(range(self._depth), init=2 % self._depth)
             m.d.comb += read.en.eq(self.en)
             with m.If(self.en):
-                m.d.sync += [written.eq(shown), shown.eq(following)]
+                m.d.sync += [written.eq(shown), shown.eq(place), place.eq(self._after(place))]
         else:
             # Block RAM reads in every clock: to pause it takes registers and multiplexers that hold its word.
-            m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
+            m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, self._after(written), written))]
             m.d.sync += written.eq(shown)
         return m
+
+    def _after(self, place: Signal) -> Value:
+        """The place that follows in the ring."""
+        return Mux(place == self._depth - 1, 0, place + 1)

@@ -45,7 +45,8 @@ class RightWinner(wiring.Component):
             wiring.connect(m, wiring.flipped(self), fractions)
             return m
         steps = self._steps
-        valid, first = Signal(), Signal()
+        valid = Signal()
+        first = Signal()
         step = Signal.like(self.step, reset_less=True)
         costs = Signal.like(self.costs, reset_less=True)
         excluded = Signal.like(self.excluded, reset_less=True)

@@ -13,9 +13,10 @@ Answer = Literal["proven", "so far", "refuted"]
 
 GRAPH = (
     "delete -input w:rst; connect -set rst 1'0; setundef -init -zero; simplemap; techmap; opt; dffunmap;"
-    " opt_clean; aigmap; opt_clean; write_aiger -I -B -zinit dut.aig"
+    " opt_clean; aigmap; opt_clean; setundef -anyseq; write_aiger -I -B -zinit dut.aig"
 )
-"""From the prepared block on: the reset is over, and registers begin as they are said to."""
+"""From the prepared block on: the reset is over, registers begin as they are said to, and what is undefined
+may be anything."""
 
 CARRIER = r"""
 module \top

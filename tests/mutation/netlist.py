@@ -77,7 +77,8 @@ def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[st
     """Verilog of the core with `count` faults to choose from, and what they are.
 
     `folder` takes yosys' files. Left out are faults that change nothing by their very place: of a bit that
-    nothing reads, of a constant at its own value, of a bit turned by a constant; and those of clocks.
+    nothing reads, of a constant at its own value, of a bit turned by a constant, or by one that alone settles
+    what the cell says; and those of clocks.
     """
     (folder / "core.il").write_text(to_rtlil(StereoCore(config), TOP, sources=True))
     yosys = yosys_of_faults()
@@ -91,7 +92,7 @@ def mutants(config: Config, count: int, folder: Path, seed: int = 1) -> tuple[st
         words = command.split()
         number, options = int(words[4]), dict(zip(words[5::2], words[6::2], strict=True))
         cell = module["cells"][options["-cell"].removeprefix("\\")]
-        if len(found) < count and _changes(cell, options, read):
+        if len(found) < count and changes(cell, options, read):
             chosen.append(command)
             sources = [place for flag, place in zip(words[5::2], words[6::2], strict=True) if flag == "-src"]
             sources = sources or [made[bit] for bit in _written(cell) if bit in made]
@@ -128,16 +129,33 @@ def _made(module: dict[str, Any]) -> dict[Any, str]:
     return found
 
 
-def _changes(cell: dict[str, Any], options: dict[str, str], read: set[Any]) -> bool:
-    """Whether a fault at a cell's port is one."""
+def changes(cell: dict[str, Any], options: dict[str, str], read: set[Any]) -> bool:
+    """Whether a fault at a cell's port can be one, of a cell whose bits are numbers or constants as text.
+
+    `options` are those of yosys' pass; `read` are the bits that something reads.
+    """
     port, mode = options["-port"], options["-mode"]
     bits = cell["connections"][port]
     bit = bits[int(options["-portbit"])]
     if port == CLOCK.upper() or bit == "x" or bit not in read:
         return False
     if mode.startswith("cnot"):
-        return isinstance(bits[int(options["-ctrlbit"])], int)
+        control = int(options["-ctrlbit"])
+        return isinstance(bits[control], int) and not _settled(cell, port, control, mode[-1])
     return not (mode.startswith("const") and bit == mode[-1])
+
+
+def _settled(cell: dict[str, Any], port: str, bit: int, value: str) -> bool:
+    """Whether a cell's output is known where a bit of its input is `value`, whatever the others are."""
+    match cell["type"]:
+        case "$reduce_or" | "$reduce_bool" | "$logic_not":
+            return value == "1"
+        case "$reduce_and":
+            return value == "0"
+        case "$eq" | "$ne":
+            other = cell["connections"]["B" if port == "A" else "A"]
+            return (other[bit] if bit < len(other) else "0") == ("1" if value == "0" else "0")
+    return False
 
 
 def _described(number: int, options: dict[str, str], kind: str, sources: list[str]) -> Mutant:

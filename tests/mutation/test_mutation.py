@@ -1,10 +1,11 @@
 """A sample of `make mutation`: faults in a small core are found by the quick regression."""
 
 import tomllib
+from itertools import permutations, product
 
 import pytest
 
-from tests.mutation.netlist import Mutant
+from tests.mutation.netlist import Mutant, changes
 from tests.mutation.page import KINDS, page
 from tests.mutation.study import EXPLAINED, Outcome, study
 
@@ -18,6 +19,29 @@ def test_a_sample_of_faults_is_found() -> None:
     assert {"front", "costs", "winners"} <= {outcome.mutant.room for outcome in outcomes}
     missed = [str(outcome.mutant) for outcome in outcomes if not outcome.killed]
     assert len(missed) <= (1 - FOUND) * SAMPLE, missed
+
+
+CELLS = {
+    "$eq": lambda a, b: a == b,
+    "$ne": lambda a, b: a != b,
+    "$reduce_or": lambda a, b: any(a),
+    "$reduce_and": lambda a, b: all(a),
+    "$logic_not": lambda a, b: not any(a),
+}
+
+
+@pytest.mark.parametrize("kind", CELLS)
+def test_only_faults_that_change_nothing_are_left_out(kind: str) -> None:
+    read = {1, 2, 3}
+    for other in product((0, 1), repeat=3):
+        cell = {"type": kind, "connections": {"A": [1, 2, 3], "B": [str(bit) for bit in other]}}
+        for (bit, control), value in product(permutations(range(3), 2), (0, 1)):
+            options = {"-port": "A", "-portbit": bit, "-mode": f"cnot{value}", "-ctrlbit": control}
+            shows = False
+            for bits in product((0, 1), repeat=3):
+                turned = tuple(b ^ (k == bit and bits[control] == value) for k, b in enumerate(bits))
+                shows |= CELLS[kind](turned, other) != CELLS[kind](bits, other)
+            assert changes(cell, options, read) == shows
 
 
 def test_what_is_not_found_is_listed_with_its_reason() -> None:

@@ -13,6 +13,8 @@ from softdepth.spec.errors import ToolError
 from tests.support.solver import asked
 
 CLOCKS = 14
+LIMIT = 300
+"""Seconds that a solver may take; one that takes longer has found nothing, which is no proof."""
 Proof = Literal["every run", "runs of some clocks", "refuted"]
 
 
@@ -26,14 +28,14 @@ SAID: list[str] = []
 """How far each proof went since the list was last looked at: what the table of proofs says."""
 
 
-def every_run(dut: Component, folder: Path, *, without: str = "", seconds: int = 600) -> Proof:
+def every_run(dut: Component, folder: Path, *, without: str = "") -> Proof:
     """What is known of the assertions in `dut`, whose inputs are free but for its reset, in every run.
 
     By ABC's `pdr`, which finds its own invariants or a run that fails; `without` as of `proof`. Fails where
-    it finds neither in so many seconds.
+    it finds neither within `LIMIT`.
     """
     (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
-    found = asked(PREPARED.format(cut=_cut(without)), folder, f"pdr,-T,{seconds}")
+    found = asked(PREPARED.format(cut=_cut(without)), folder, f"pdr,-T,{LIMIT}")
     SAID.append("every run" if found == "proven" else found)
     return "every run" if found == "proven" else "refuted"
 
@@ -41,7 +43,7 @@ def every_run(dut: Component, folder: Path, *, without: str = "", seconds: int =
 def some_clocks(dut: Component, folder: Path, clocks: int, *, without: str = "") -> Proof:
     """The same of every run of so many clocks from reset on, by ABC's `bmc3`."""
     (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
-    found = asked(PREPARED.format(cut=_cut(without)), folder, f"bmc3,-F,{clocks + 1}", clocks)
+    found = asked(PREPARED.format(cut=_cut(without)), folder, f"bmc3,-F,{clocks + 1},-T,{LIMIT}", clocks)
     SAID.append(found if found == "refuted" else f"{clocks} clocks")
     return "refuted" if found == "refuted" else "runs of some clocks"
 
@@ -102,7 +104,7 @@ def pipeline_proof(dut: Component, folder: Path, latency: int) -> Proof:
 def _solved(dut: Component, folder: Path, script: str, cut: str = "") -> str | None:
     """What yosys says of a failed proof, None of one that did not fail."""
     (folder / "dut.il").write_text(to_rtlil(dut, "dut"))
-    script = f"{PREPARED.format(cut=cut)} {script} -prove-asserts -set-assumes -verify dut"
+    script = f"{PREPARED.format(cut=cut)} {script} -timeout {LIMIT} -prove-asserts -set-assumes -verify dut"
     try:
         find_tool("yosys").run(["-q", "-l", "log", "-p", script], folder, log="log")
     except ToolError:

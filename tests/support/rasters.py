@@ -13,10 +13,11 @@ Fault = Literal["none", "withdraws", "changes", "drops", "doubles", "no eof"]
 class Rasters(Component):
     """A block with streams ``i`` and ``o`` that have markers, fed with sound frames of one size.
 
-    What is free: the size, within bounds; what else is in the pixels, but for what travels along; when one is
-    offered, and when a result is taken. An offer stands until it is taken. Asserted in every clock: a result
-    that is on offer stands unchanged until it is taken; its markers are those of the next pixel; none comes
-    before its pixel; and `quiet` clocks after the last pixel, with nothing in the way, all have come.
+    What is free: the size, within bounds; what else is in the pixels, but for what travels along or is left
+    `blank`; when one is offered, and when a result is taken. An offer stands until it is taken. Asserted in
+    every clock: a result that is on offer stands unchanged until it is taken; its markers are those of the
+    next pixel; none comes before its pixel; and `quiet` clocks after the last pixel, with nothing in the way,
+    all have come.
     """
 
     def __init__(
@@ -27,9 +28,10 @@ class Rasters(Component):
         heights: range,
         quiet: int,
         fault: Fault = "none",
+        blank: tuple[str, ...] = (),
     ) -> None:
         self._block, self._widths, self._heights = block, widths, heights
-        self._quiet, self._fault = quiet, fault
+        self._quiet, self._fault, self._blank = quiet, fault, blank
         bits = len(Value.cast(block.i.payload))
         sides = {"width": In(SIDE), "height": In(SIDE)}
         super().__init__({"valid": In(1), "payload": In(bits), "ready": In(1), **sides})
@@ -79,7 +81,8 @@ class Rasters(Component):
         m.d.comb += pixel.eq(Mux(stands, kept, self.payload))
         m.d.sync += kept.eq(pixel)
         m.d.comb += Value.cast(block.i.payload).eq(pixel)
-        for name in ("confidence", "colour", "right"):  # more of the same costs time and says nothing
+        # More of the same costs time and says nothing.
+        for name in ("confidence", "colour", "right", *self._blank):
             if name in block.i.payload.shape().members:
                 m.d.comb += block.i.payload[name].eq(0)
         enters = place("enters", taken)

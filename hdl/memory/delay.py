@@ -1,6 +1,6 @@
 """A delay counted in enabled clocks."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
+from amaranth.hdl import Module, Mux, ShapeLike, Signal
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -92,17 +92,20 @@ class Delay(wiring.Component):
         ]
         if self._in_ram:
             # Nothing stands before a distributed RAM, whose word goes to registers in the same clock. Places
-            # are counted apart from where they are read by many.
+            # are counted apart from where they are read by many, and where the ring closes is known before.
             place = Signal(range(self._depth), init=2 % self._depth)
+            closes = Signal(init=2 % self._depth == self._depth - 1)
             m.d.comb += read.en.eq(self.en)
             with m.If(self.en):
-                m.d.sync += [written.eq(shown), shown.eq(place), place.eq(self._after(place))]
+                m.d.sync += [
+                    written.eq(shown),
+                    shown.eq(place),
+                    place.eq(Mux(closes, 0, place + 1)),
+                    closes.eq(place == self._depth - 2),
+                ]
         else:
             # Block RAM reads in every clock: to pause it takes registers and multiplexers that hold its word.
-            m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, self._after(written), written))]
+            following = Mux(written == self._depth - 1, 0, written + 1)
+            m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
             m.d.sync += written.eq(shown)
         return m
-
-    def _after(self, place: Signal) -> Value:
-        """The place that follows in the ring."""
-        return Mux(place == self._depth - 1, 0, place + 1)

@@ -99,6 +99,13 @@ class Nets:
         cell["port_directions"][port] = "input"
         self.readers[bit].add((name, port))
 
+    def exchange(self, name: str, port: str, old: Bit, new: Bit) -> None:
+        """Connect those bits of an input that a net goes to, to another net."""
+        connections = self.cells[name]["connections"]
+        connections[port] = [new if bit == old else bit for bit in connections[port]]
+        self.readers[old].discard((name, port))
+        self.readers[new].add((name, port))
+
     def copy(self, name: str, output: str, bit: Bit, copy: str) -> None:
         """Add a cell like another one but for its output, which drives the net `bit`."""
         cell = deepcopy(self.cells[name])

@@ -1,22 +1,27 @@
 """Copies the flip-flops that many cells read, so that each copy can stand near its readers."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 from typing import Any
 
 from softdepth.flow.netlist import FLIP_FLOP, Netlist, Nets
 
-READERS = 128
-"""Most pins that read one flip-flop."""
+READERS = 48
+"""Most ports that read one flip-flop."""
+
+Pin = tuple[str, str]
+"""A cell and its port."""
 
 
 def copy_registers(netlist: Netlist) -> int:
     """Let no flip-flop have more than `READERS` readers, in place: there are as many copies as that takes.
 
     The clock enable of all lanes goes to half of the FPGA, which takes longer than what a lane computes
-    within a clock. Neither yosys nor nextpnr copies registers. Readers whose names are neighbours share a
-    copy: they belong to one lane, or to the next. A copy reads what the flip-flop reads, so that this may
-    need copies in turn: a bit that travels through a few registers becomes a tree.
+    within a clock. Neither yosys nor nextpnr copies registers. Readers of one block share a copy, or several
+    if they are many; small blocks share one with their neighbours. Blocks are known by the cells' names. A copy
+    reads what the flip-flop reads, so that this may need copies in turn: a bit that travels through a few
+    registers becomes a tree.
 
     Returns how many cells went, which is minus the number of copies.
     """
@@ -50,18 +55,16 @@ class _Module:
         """Copy one flip-flop, if it has too many readers; those of the module's ports keep the original."""
         cells, readers = self._nets.cells, self._nets.readers
         output = cells[name]["connections"]["Q"][0]
-        ordered = sorted(readers[output], key=_natural)
-        if len(ordered) <= READERS or any(reader == name for reader, _ in ordered):
+        pins = readers[output]
+        if len(pins) <= READERS or any(reader == name for reader, _ in pins):
             return False
-        for start in range(READERS, len(ordered), READERS):
+        for group in _groups(sorted(pins, key=_natural))[1:]:
             self._last += 1
             copy = f"{name}_copy_{self._last}"
             self._names[f"{copy}_Q"] = {"hide_name": 0, "bits": [self._last], "attributes": {}}
             self._nets.copy(name, "Q", self._last, copy)
-            for reader, port in ordered[start : start + READERS]:
-                pins = cells[reader]["connections"][port]
-                assert pins == [output], "a pin of an ECP5 cell is one bit"
-                self._nets.move(reader, port, self._last)
+            for reader, port in group:
+                self._nets.exchange(reader, port, output, self._last)
         return True
 
     def _read_by(self, name: str) -> Iterator[str]:
@@ -73,6 +76,25 @@ class _Module:
                     yield before
 
 
-def _natural(reader: tuple[str, str]) -> list[tuple[int, str]]:
+def _groups(pins: Sequence[Pin], depth: int = 0) -> list[list[Pin]]:
+    """Sorted pins in groups of up to `READERS`, along the borders of blocks where that goes."""
+    if len(pins) <= READERS:
+        return [list(pins)]
+    blocks = [list(block) for _, block in groupby(pins, key=lambda pin: pin[0].split(".")[: depth + 1])]
+    if len(blocks) == 1 and pins[0][0].count(".") < depth:  # names of one block, which only differ at the end
+        return [list(pins[start : start + READERS]) for start in range(0, len(pins), READERS)]
+    groups: list[list[Pin]] = []
+    open_group = False  # the last group consists of whole blocks, and may take more
+    for block in blocks:
+        whole = len(block) <= READERS
+        if whole and open_group and len(groups[-1]) + len(block) <= READERS:
+            groups[-1] += block
+        else:
+            groups += _groups(block, depth + 1)
+        open_group = whole
+    return groups
+
+
+def _natural(pin: Pin) -> list[tuple[int, str]]:
     """Sorts names by the numbers in them: ``lane_9`` before ``lane_10``."""
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", reader[0])]
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", pin[0])]

@@ -86,6 +86,53 @@ def test_neighbours_share_a_copy(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sorted(groups.values()) == [[1, 2, 3, 4], [5, 6, 7, 8], [9, 10, 11, 12]]
 
 
+def test_copies_follow_the_borders_of_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A block that needs a copy of its own does not share it; small ones that are neighbours share one."""
+    monkeypatch.setattr(copies, "READERS", 4)
+    m = Circuit()
+    (clock,), (bit,) = m.input("clock", 1), m.input("bit", 1)
+    bit = m.register(bit, clock)
+    for _ in range(11):
+        m.lut(BUFFER, bit)
+    netlist = m.netlist
+    module = netlist["modules"][TOP]
+    names = [f"lane_9.{k}" for k in range(3)] + [f"lane_10.a.{k}" for k in range(5)] + ["b.0", "c.0", "d.0"]
+    tables = [name for name in module["cells"] if name.startswith("lut4")]
+    for old, new in zip(tables, names, strict=True):
+        module["cells"][new] = module["cells"].pop(old)
+    copy_registers(netlist)
+    drivers = behind(netlist)
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        groups.setdefault(drivers[module["cells"][name]["connections"]["A"][0]][0], []).append(name)
+    assert sorted(map(sorted, groups.values())) == [
+        ["b.0", "c.0", "d.0"],
+        ["lane_10.a.0", "lane_10.a.1", "lane_10.a.2", "lane_10.a.3"],
+        ["lane_10.a.4"],
+        ["lane_9.0", "lane_9.1", "lane_9.2"],
+    ]
+
+
+def test_ports_of_several_bits_keep_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(copies, "READERS", 1)
+    m = Circuit()
+    (clock,), (bit,), (other,) = m.input("clock", 1), m.input("bit", 1), m.input("other", 1)
+    bit = m.register(bit, clock)
+    netlist = m.netlist
+    cells = netlist["modules"][TOP]["cells"]
+    for k in range(2):
+        cells[f"ram_{k}"] = {
+            "type": "TRELLIS_DPR16X4",
+            "parameters": {},
+            "port_directions": {"RAD": "input"},
+            "connections": {"RAD": [bit, other, bit, "0"]},
+        }
+    assert copy_registers(netlist) == -1
+    addresses = [cells[f"ram_{k}"]["connections"]["RAD"] for k in range(2)]
+    assert all(address[0] == address[2] and address[1::2] == [other, "0"] for address in addresses)
+    assert addresses[0][0] != addresses[1][0]
+
+
 def test_a_flip_flop_that_reads_itself_stays_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each copy would be one reader more, which would need a copy."""
     monkeypatch.setattr(copies, "READERS", 2)

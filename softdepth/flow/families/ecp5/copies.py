@@ -18,10 +18,10 @@ def copy_registers(netlist: Netlist) -> int:
     """Let no flip-flop have more than `READERS` readers, in place: there are as many copies as that takes.
 
     The clock enable of all lanes goes to half of the FPGA, which takes longer than what a lane computes
-    within a clock. Neither yosys nor nextpnr copies registers. Readers of one block share a copy, or several
-    if they are many; small blocks share one with their neighbours. Blocks are known by the cells' names. A copy
-    reads what the flip-flop reads, so that this may need copies in turn: a bit that travels through a few
-    registers becomes a tree.
+    within a clock. Neither yosys nor nextpnr copies registers. Readers of one block share a copy, or
+    several if they are many; small blocks share one with their neighbours. Blocks are known by the cells'
+    names. A copy reads what the flip-flop reads, so that this may need copies in turn: a bit that travels
+    through a few registers becomes a tree.
 
     Returns how many cells went, which is minus the number of copies.
     """

@@ -38,14 +38,19 @@ class Counted:
 def main() -> int:
     """Run the proofs, and renew both parts."""
     arguments = sys.argv[1:]
-    text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), PART, table(declared(Path())))
-    status = 0
-    if "--table" not in arguments:
-        counted, began = Counted(), time.monotonic()
-        status = int(pytest.main(["-m", "formal", "tests/hdl", *arguments], plugins=[counted]))
-        text = markers.renew(text, str(DOCUMENT), RUN, said(counted, time.monotonic() - began))
-    write_atomically(DOCUMENT, text.encode())
+    if "--table" in arguments:
+        _renew(PART, table(declared(Path())))
+        return 0
+    counted, began = Counted(), time.monotonic()
+    status = int(pytest.main(["-m", "formal", "tests/hdl", "tests/axi", *arguments], plugins=[counted]))
+    _renew(PART, table(declared(Path())))
+    _renew(RUN, said(counted, time.monotonic() - began))
     return status
+
+
+def _renew(part: str, content: str) -> None:
+    text = markers.renew(DOCUMENT.read_text(), str(DOCUMENT), part, content)
+    write_atomically(DOCUMENT, text.encode())
 
 
 def said(counted: Counted, seconds: float) -> str:

@@ -20,7 +20,9 @@ Proof = Literal["every run", "runs of some clocks", "refuted"]
 
 PREPARED = (
     "read_rtlil dut.il; hierarchy -top dut; {cut} proc; flatten; memory_map; async2sync; dffunmap;"
-    " chformal -lower; setundef -undriven -zero; opt -full;"
+    " chformal -lower; setundef -undriven -zero;"
+    # yosys' pass for flip-flops stumbles over wires that others have joined: these are tidied up first.
+    " opt_merge; opt_clean; opt_dff; opt_clean; opt -full;"
 )
 
 

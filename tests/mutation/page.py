@@ -10,6 +10,7 @@ ROOMS = ("front", "costs", "winners", "post", "")
 KINDS = {
     "equivalent": "no input can tell it from the sound core",
     "tested": "found by other tests",
+    "harmless": "later, but never wrong",
     "": "not explained",
 }
 

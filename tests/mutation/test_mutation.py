@@ -16,7 +16,9 @@ SAMPLE, FOUND = 30, 0.9
 def test_a_sample_of_faults_is_found() -> None:
     outcomes = study("lite", SAMPLE, seed=2, thorough=False)
     assert len({outcome.mutant.what for outcome in outcomes}) > SAMPLE // 2
-    assert {"front", "costs", "winners"} <= {outcome.mutant.room for outcome in outcomes}
+    # So few need not lie in each room, but they are spread.
+    assert len({outcome.mutant.room for outcome in outcomes}) > 1
+    assert len({outcome.mutant.block for outcome in outcomes}) > SAMPLE // 4
     missed = [str(outcome.mutant) for outcome in outcomes if not outcome.killed]
     assert len(missed) <= (1 - FOUND) * SAMPLE, missed
 

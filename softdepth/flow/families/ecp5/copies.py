@@ -1,21 +1,24 @@
 """Copies the flip-flops that many cells read, so that each copy can stand near its readers."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
 from softdepth.flow.netlist import FLIP_FLOP, Netlist, Nets
 
-READERS = 48
-"""Most ports that read one flip-flop."""
+LOAD = 128
+"""Most that reads one flip-flop: a clock enable or a reset counts 1, any other input `APART`."""
+
+APART = 4
+"""Flip-flops that stand together have a clock enable and a reset in common, but no other input."""
 
 Pin = tuple[str, str]
 """A cell and its port."""
 
 
 def copy_registers(netlist: Netlist) -> int:
-    """Let no flip-flop have more than `READERS` readers, in place: there are as many copies as that takes.
+    """Let no flip-flop have more than `LOAD` readers, in place: there are as many copies as that takes.
 
     The clock enable of all lanes goes to half of the FPGA, which takes longer than what a lane computes
     within a clock. Neither yosys nor nextpnr copies registers. Readers of one block share a copy, or
@@ -56,7 +59,7 @@ class _Module:
         cells, readers = self._nets.cells, self._nets.readers
         output = cells[name]["connections"]["Q"][0]
         pins = readers[output]
-        if len(pins) <= READERS or any(reader == name for reader, _ in pins):
+        if _load(pins) <= LOAD or any(reader == name for reader, _ in pins):
             return False
         for group in _groups(sorted(pins, key=_natural))[1:]:
             self._last += 1
@@ -76,18 +79,22 @@ class _Module:
                     yield before
 
 
+def _load(pins: Iterable[Pin]) -> int:
+    return sum(1 if port in ("CE", "LSR") else APART for _, port in pins)
+
+
 def _groups(pins: Sequence[Pin], depth: int = 0) -> list[list[Pin]]:
-    """Sorted pins in groups of up to `READERS`, along the borders of blocks where that goes."""
-    if len(pins) <= READERS:
+    """Sorted pins in groups of up to `LOAD`, along the borders of blocks where that goes."""
+    if _load(pins) <= LOAD:
         return [list(pins)]
     blocks = [list(block) for _, block in groupby(pins, key=lambda pin: pin[0].split(".")[: depth + 1])]
     if len(blocks) == 1 and pins[0][0].count(".") < depth:  # names of one block, which only differ at the end
-        return [list(pins[start : start + READERS]) for start in range(0, len(pins), READERS)]
+        blocks = [[pin] for pin in pins]
     groups: list[list[Pin]] = []
     open_group = False  # the last group consists of whole blocks, and may take more
     for block in blocks:
-        whole = len(block) <= READERS
-        if whole and open_group and len(groups[-1]) + len(block) <= READERS:
+        whole = _load(block) <= LOAD
+        if whole and open_group and _load(groups[-1]) + _load(block) <= LOAD:
             groups[-1] += block
         else:
             groups += _groups(block, depth + 1)

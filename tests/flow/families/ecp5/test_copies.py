@@ -46,7 +46,7 @@ def travelled(bit: Bit, drivers: dict[Bit, tuple[str, dict]]) -> int:
 @pytest.mark.parametrize("count", [4, 5, 12, 100])
 def test_a_travelling_bit_becomes_a_tree(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every reader still gets the bit after as many clocks, and no flip-flop has more readers than it may."""
-    monkeypatch.setattr(copies, "READERS", 4)
+    monkeypatch.setattr(copies, "LOAD", 4 * copies.APART)
     m = Circuit()
     (clock,), (bit,) = m.input("clock", 1), m.input("bit", 1)
     for _ in range(4):
@@ -69,7 +69,7 @@ def test_a_travelling_bit_becomes_a_tree(count: int, monkeypatch: pytest.MonkeyP
 
 
 def test_neighbours_share_a_copy(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(copies, "READERS", 4)
+    monkeypatch.setattr(copies, "LOAD", 4)
     m = Circuit()
     (clock,), (enable,) = m.input("clock", 1), m.input("enable", 1)
     bit = m.register(enable, clock)
@@ -88,7 +88,7 @@ def test_neighbours_share_a_copy(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_copies_follow_the_borders_of_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """A block that needs a copy of its own does not share it; small ones that are neighbours share one."""
-    monkeypatch.setattr(copies, "READERS", 4)
+    monkeypatch.setattr(copies, "LOAD", 4 * copies.APART)
     m = Circuit()
     (clock,), (bit,) = m.input("clock", 1), m.input("bit", 1)
     bit = m.register(bit, clock)
@@ -114,7 +114,7 @@ def test_copies_follow_the_borders_of_blocks(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_ports_of_several_bits_keep_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(copies, "READERS", 1)
+    monkeypatch.setattr(copies, "LOAD", copies.APART)
     m = Circuit()
     (clock,), (bit,), (other,) = m.input("clock", 1), m.input("bit", 1), m.input("other", 1)
     bit = m.register(bit, clock)
@@ -135,7 +135,7 @@ def test_ports_of_several_bits_keep_the_others(monkeypatch: pytest.MonkeyPatch) 
 
 def test_a_flip_flop_that_reads_itself_stays_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each copy would be one reader more, which would need a copy."""
-    monkeypatch.setattr(copies, "READERS", 2)
+    monkeypatch.setattr(copies, "LOAD", 2 * copies.APART)
     m = Circuit()
     (clock,) = m.input("clock", 1)
     bit = m.register("0", clock)

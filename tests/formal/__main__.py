@@ -21,6 +21,10 @@ RUN = "proofs-run"
 SLOWEST = 3
 
 
+SELECTING = {"-k", "--deselect", "--lf"}
+"""Options with which a run is not one of all proofs, and is not recorded."""
+
+
 class Counted:
     """What pytest says of each test: how many pass, fail, and take how long."""
 
@@ -44,7 +48,8 @@ def main() -> int:
     counted, began = Counted(), time.monotonic()
     status = int(pytest.main(["-m", "formal", "tests/hdl", "tests/axi", *arguments], plugins=[counted]))
     _renew(PART, table(declared(Path())))
-    _renew(RUN, said(counted, time.monotonic() - began))
+    if counted.seconds and not SELECTING & set(arguments):
+        _renew(RUN, said(counted, time.monotonic() - began))
     return status
 
 

@@ -1,1 +1,1 @@
-"""The core as others build it in: AXI4-Stream Video in and out, and registers on a bus."""
+"""The core for use in other designs: AXI4-Stream Video in and out, and registers on a bus."""

@@ -1,4 +1,4 @@
-"""AXI4-Lite to the accesses of a register bank."""
+"""Turns AXI4-Lite transfers into accesses to a register bank."""
 
 from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
@@ -38,15 +38,15 @@ def axi_lite(word_bits: int) -> dict[str, wiring.Member]:
 
 
 class AxiLite(wiring.Component):
-    """Takes a write when address and data are both on offer, and one read, until each is answered.
+    """Handles one write and one read at a time; a write starts once its address and data are both valid.
 
-    The answer comes a clock later and is always OKAY. A write and a read every second clock. ``prot`` is
-    not looked at. During reset nothing is taken.
+    The response comes a clock later and is always OKAY. One write and one read every two clocks. ``prot``
+    is ignored. Nothing is accepted during reset.
 
     Members
     -------
     awaddr ... rready : AXI4-Lite.
-    bus : the bank.
+    bus : accesses to the bank.
     """
 
     def __init__(self, word_bits: int) -> None:
@@ -55,7 +55,7 @@ class AxiLite(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         bus = self.bus
-        # Set from the first clock after reset on: `ready` is low until then.
+        # Set by the first clock after reset; `ready` is low until then.
         awake = Signal()
         m.d.sync += awake.eq(1)
         write = Signal()

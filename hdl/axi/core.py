@@ -39,15 +39,15 @@ THRESHOLDS = {
     "truncation": "truncation_value",
     "like": "likeness_like",
 }
-"""The register's field behind each threshold that a core can be told."""
+"""The register field that sets each threshold of a core."""
 
 
 class AxiCore(wiring.Component):
     """A stereo core that drops into a design of AXI4-Stream Video.
 
-    Registers whose fields act from the next frame on are copied while no frame is inside: from a write to
-    one of them on, a frame that begins waits for the results of those before it. No frame is computed with
-    some old and some new values, and a result is that of the configuration with these values.
+    Registers that take effect with the next frame are copied while the core is empty: after a write to one
+    of them, a new frame waits until all earlier frames' results have left. So no frame is computed with a
+    mix of old and new values, and each result is that of the configuration with the frame's values.
 
     Throughput and latency are the core's; nothing is added to them.
 
@@ -55,10 +55,10 @@ class AxiCore(wiring.Component):
     -------
     aclk, aresetn : clock, and reset, active low and synchronous.
     s_axis_* : both views' pixels, `pair_bits`; ``tuser`` starts a frame, ``tlast`` ends a line. Or
-    s_axis_left_*, s_axis_right_* : a view's each, `view_bits`, as `TwoStreams` joins them.
+    s_axis_left_*, s_axis_right_* : one view each, `view_bits`, joined by `TwoStreams`.
     m_axis_* : results, `outcome_layout`, one for each pixel.
     s_axil_*, or wb_* : the registers.
-    irq : a flag is raised whose interrupt is on; a level.
+    irq : a level, high while a flag is set whose interrupt is enabled.
     """
 
     def __init__(self, config: Config, options: AxiOptions = DEFAULT) -> None:
@@ -146,13 +146,13 @@ class AxiCore(wiring.Component):
 
     @property
     def _most_frames(self) -> int:
-        """Frames that can be inside: no frame has fewer pixels than `Config.min_width`."""
+        """Frames that can be in the core at once: no frame has fewer pixels than `Config.min_width`."""
         config = self._config
         lines = 2 * config.max_height
         return config.max_width * lines // config.min_width
 
     def _taken_over(self, m: Module, bank: RegisterBank, frames: Frames) -> data.View:
-        """What the running frames are computed with."""
+        """The register values with which the frames in the core are computed."""
         held = bank.held
         fields = [f for r in self._registers if r.takeover for f in r.fields]
         layout = data.StructLayout({f.name: f.width for f in fields})
@@ -165,25 +165,25 @@ class AxiCore(wiring.Component):
         with m.Elif(pending & ~frames.busy):
             m.d.comb += taken.eq(1)
             m.d.sync += [pending.eq(0), *(applied[f.name].eq(held[f.name]) for f in fields)]
-        # A height that is set makes the core one whose frames' ends are marked, until it is no longer set.
+        # While a height is set, the core sees its frames' ends marked; without one, it must forget that.
         no_longer = applied.geometry_height.any() & ~held.geometry_height.any()
         m.d.comb += self._core.settings.forget.eq(taken & no_longer)
         return applied
 
     def _thresholds(self, m: Module, applied: data.View) -> None:
-        """What the core is told of registers, held within what it can be told."""
+        """Passes thresholds from the registers to the core, limited to the range that it accepts."""
         settings, limits = self._core.settings, threshold_limits(self._config)
         for name, field in THRESHOLDS.items():
             if name in settings_layout(self._config).members:
                 told: Value = applied[field]
                 most = (1 << len(told)) - 1
                 low, high = limits.get(name, (0, most))
-                # Without the comparisons that never hold, which linters name.
+                # Comparisons that never hold are left out: linters report them.
                 held = Mux(told > high, high, told) if high < most else told
                 m.d.comb += settings[name].eq(Mux(told < low, low, held) if low else held)
 
     def _give(self, m: Module, applied: data.View, frames: Frames) -> None:
-        """Results as they leave."""
+        """Puts the core's results on the output stream."""
         config = self._config
         result = self._core.o.payload
         outcome = Signal(self._outcome)
@@ -218,12 +218,12 @@ def _is_port(name: str) -> bool:
 
 
 def _through(m: Module, member: wiring.Member, outside: Value, inside: Value) -> None:
-    """A part's port becomes one of the whole."""
+    """Connects a port of the whole to the same port of a part."""
     m.d.comb += inside.eq(outside) if member.flow is In else outside.eq(inside)
 
 
 def _any_of(held: data.View, values: str, masks: str) -> Value:
-    """Whether a field of one register is set whose namesake in another is too."""
+    """Whether any field is set both in the register `values` and, by the same name, in `masks`."""
     names = [
         name.removeprefix(f"{values}_") for name in held.shape().members if name.startswith(f"{values}_")
     ]

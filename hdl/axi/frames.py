@@ -1,4 +1,4 @@
-"""Which frames are inside, how many have left, and how large the last one was."""
+"""Whether frames are in the core, how many have left, and the size of the last one."""
 
 from amaranth.hdl import Module, Mux, Signal
 from amaranth.lib import wiring
@@ -10,20 +10,20 @@ COUNT_BITS = 32
 
 
 class Frames(wiring.Component):
-    """Counts frames that begin and end, and the pixels and lines of those that end.
+    """Counts frames as they begin and end, and the pixels and lines of those that have ended.
 
     Parameters
     ----------
-    most : frames that can be inside at the same time.
+    most : the largest number of frames in the core at once.
 
     Members
     -------
     begins : a frame's first pixel is taken in this clock.
     leaves, eol, eof : a result leaves, and its markers.
-    clear : counting begins at 0.
-    busy : results are due.
+    clear : sets ``count`` to 0.
+    busy : results are still to come.
     ended : a frame's last result left in the clock before.
-    count, width, height : frames that have ended, and the geometry of the newest.
+    count, width, height : frames that have ended, and the geometry of the latest.
     """
 
     def __init__(self, most: int) -> None:

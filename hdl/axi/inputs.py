@@ -16,7 +16,7 @@ VIEWS = ("left", "right")
 
 
 def axi_stream(prefix: str, bits: int, flow: wiring.Flow) -> dict[str, wiring.Member]:
-    """The ports of an AXI4-Stream Video interface that comes in, or goes out."""
+    """The ports of an AXI4-Stream Video interface, incoming or outgoing."""
     against = Out if flow is In else In
     return {
         f"{prefix}_tdata": flow(bits),
@@ -28,7 +28,7 @@ def axi_stream(prefix: str, bits: int, flow: wiring.Flow) -> dict[str, wiring.Me
 
 
 class OneStream(wiring.Component):
-    """Both views' pixels side by side: wires.
+    """One stream with both views' pixels side by side. Wires only.
 
     Members
     -------
@@ -58,13 +58,13 @@ class OneStream(wiring.Component):
 
 
 class TwoStreams(wiring.Component):
-    """A stream a view, each with a queue, joined by `PairSync`.
+    """One stream per view, each with a queue, joined by `PairSync`.
 
     Members
     -------
-    s_axis_left_*, s_axis_right_* : the streams; ``aclk`` among them where each has its own clock.
-    o, by_count, between, clear, lost, losses : as of `PairSync`.
-    waits : one view has to wait, as the other is further behind than was allowed for.
+    s_axis_left_*, s_axis_right_* : the streams, including ``aclk`` where each has its own clock.
+    o, by_count, between, clear, lost, losses : as in `PairSync`.
+    waits : one view is held up because the other lags further behind than was allowed for.
     """
 
     def __init__(self, config: Config, options: AxiOptions) -> None:

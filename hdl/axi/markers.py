@@ -1,4 +1,4 @@
-"""Start of frame and end of line into the core's markers."""
+"""Turns starts of frames and ends of lines into the core's markers."""
 
 from amaranth.hdl import Module, Mux, Signal
 from amaranth.lib import wiring
@@ -8,14 +8,14 @@ GEOMETRY_BITS = 16
 
 
 class Markers(wiring.Component):
-    """Ends of lines and frames, as marked or by the geometry that was set. In the same clock.
+    """Finds the ends of lines and frames, by marks or by the geometry that was set, in the same clock.
 
     Members
     -------
     taken : a pixel is taken in this clock.
-    sof, last : its marks: it starts a frame, it ends a line.
-    width, height : what was set; 0 is nothing.
-    eol, eof : it ends a line, or a frame. Without a height, ``eof`` is 0.
+    sof, last : its marks: start of a frame, end of a line.
+    width, height : the geometry that was set; 0 means that it was not.
+    eol, eof : the pixel ends a line, or a frame. Without a height, ``eof`` is 0.
     between : the next pixel begins a line.
     """
 
@@ -35,7 +35,7 @@ class Markers(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        # Counted from 1, as the geometry is; a start of frame is at 1 wherever the counters are.
+        # Counted from 1, like the geometry; a start of frame is at 1 whatever the counters say.
         columns = Signal(GEOMETRY_BITS, init=1)
         rows = Signal(GEOMETRY_BITS, init=1)
         column, row = Mux(self.sof, 1, columns), Mux(self.sof, 1, rows)

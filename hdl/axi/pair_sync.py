@@ -1,4 +1,4 @@
-"""Two views' streams joined to one of pixel pairs."""
+"""Joins the streams of two views into one of pixel pairs."""
 
 from amaranth.hdl import Module, Mux, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
@@ -9,22 +9,22 @@ from softdepth.hdl.signatures import COUNTER_BITS
 
 
 def joined_layout(bits: int) -> data.StructLayout:
-    """A pixel of ``bits`` of each view, and the marks that both have."""
+    """A pixel of ``bits`` from each view, and the marks that both share."""
     return data.StructLayout({"left": unsigned(bits), "right": unsigned(bits), "sof": 1, "last": 1})
 
 
 class PairSync(wiring.Component):
-    """Passes pixels in pairs while both views' marks agree, and aligns the views anew where they do not.
+    """Passes pixels in pairs while both views' marks agree, and realigns the views where they do not.
 
-    A pixel waits for the other view's, however long. Where the marks of a pair differ, alignment is lost:
-    pixels are dropped up to the start of a frame in either view, and the two starts are a pair. The frame
-    that was running is never whole: no end of line leaves with marks that differ, and where both its lines
-    had ended, a pixel without an end follows. So the start that comes next is found in mid-line.
+    A pixel waits for the other view's, however long that takes. Where the marks of a pair differ, alignment
+    is lost: each view drops pixels up to the start of a frame, and the two starts form a pair. The frame
+    under way never leaves whole: no end of line leaves with marks that differ, and if both its lines had
+    ended, a pixel without an end follows. So the next start is found in mid-line.
 
-    A start that is missing, or one too many, would leave the views a frame apart for ever. So one
-    start is given up, once for each loss, when the other view has dropped more pixels than its own, by half
-    a frame: that of the newest whole one, or ``skew`` pixels before there was any. What leaves does not
-    depend on when pixels come. In the clock in which they are there, a pair a clock.
+    A missing start, or one too many, would leave the views a frame apart for ever. So once per loss, a view
+    gives up its start when the other view has dropped half a frame more pixels than it has itself: half of
+    the latest whole frame, or ``skew`` pixels if there has been none. What leaves does not depend on when
+    pixels arrive. A pair leaves in the clock in which both pixels are there; one pair a clock.
 
     States
     ------
@@ -40,11 +40,11 @@ class PairSync(wiring.Component):
     -------
     left, right : streams of `view_layout`.
     o : stream of `joined_layout`.
-    by_count : lines end by their length: ``last`` is not looked at.
+    by_count : lines end by their length: ``last`` is ignored.
     between : the next pair begins a line.
-    clear : the counter begins at 0.
+    clear : sets ``losses`` to 0.
     lost : alignment was lost in the clock before.
-    losses : how often since reset; stays at its greatest value.
+    losses : how often, since reset or ``clear``; stays at its largest value.
     """
 
     def __init__(self, bits: int, *, skew: int, most_pixels: int) -> None:

@@ -1,4 +1,4 @@
-"""Registers as they are described, between a bus and the core."""
+"""The registers of a description, between a bus and the core."""
 
 from collections.abc import Sequence
 
@@ -9,16 +9,16 @@ from amaranth.lib.wiring import In, Out
 from softdepth.spec.registers import WORD_BITS, Register
 
 LANES = WORD_BITS // 8
-"""Bytes of a word, each written for itself."""
+"""Bytes of a word; each can be written on its own."""
 
 
 def access(address_bits: int) -> wiring.Signature:
-    """A word's access, as the bank sees it: at most one write and one read a clock.
+    """Accesses to the bank's words: at most one write and one read a clock.
 
     Members
     -------
-    write, write_word, write_bytes, write_data : a word is written, those of its bytes.
-    read, read_word : a word is read; ``read_data`` is there a clock later, and stays.
+    write, write_word, write_bytes, write_data : the chosen bytes of a word are written.
+    read, read_word : a word is read; ``read_data`` follows a clock later, and holds.
     """
     return wiring.Signature(
         {
@@ -34,20 +34,20 @@ def access(address_bits: int) -> wiring.Signature:
 
 
 def word_bits(registers: Sequence[Register]) -> int:
-    """Bits that number the registers' words."""
+    """Bits needed to number the registers' words."""
     return (max(r.address for r in registers) // LANES).bit_length()
 
 
 class RegisterBank(wiring.Component):
-    """Holds what software writes, and shows it what the core gives. A write and a read a clock.
+    """Holds what software writes, and shows it what the core reports. One write and one read a clock.
 
     Members
     -------
     bus : `access` from the bus's side.
-    held : the fields that software writes, sticky ones among them, by name; those that pulse are 1 for a
+    held : the fields that software writes, including sticky ones, by name; those that pulse are 1 for one
         clock.
-    given : the fields whose values, or events, are the core's.
-    takeover : a register was written in the clock before whose fields act from the next frame on.
+    given : the fields whose values, or events, come from the core.
+    takeover : in the clock before, a register was written that takes effect with the next frame.
     """
 
     def __init__(self, registers: Sequence[Register]) -> None:

@@ -1,4 +1,4 @@
-"""What lies where in ``tdata``, after AMD's UG934 where that says it."""
+"""The layout of ``tdata``, after AMD's UG934 where that specifies it."""
 
 from amaranth.hdl import Cat, Const, Value
 from amaranth.lib import data
@@ -7,10 +7,10 @@ from softdepth.spec.config import Config, PixelFormat
 
 BYTE = 8
 DISPARITY_BITS = 16
-"""A disparity fills two bytes; one that is signed keeps its sign."""
+"""A disparity fills two bytes; a signed one is sign-extended."""
 
 CHANNELS = {1: (0,), 3: (1, 2, 0)}
-"""Of a pixel, lowest first: gray; or green, blue, red of red, green, blue."""
+"""A pixel's channels in ``tdata``, lowest first: gray; or green, blue, red, numbered as in the core."""
 
 
 def whole_bytes(bits: int) -> int:
@@ -19,17 +19,17 @@ def whole_bytes(bits: int) -> int:
 
 
 def pair_bits(pixel: PixelFormat) -> int:
-    """Bits of ``tdata`` with both: the left one lowest, the right one next to it, 0 above."""
+    """Bits of ``tdata`` that holds both views' pixels: the left one lowest, the right one next, 0 above."""
     return whole_bytes(2 * pixel.size)
 
 
 def view_bits(pixel: PixelFormat) -> int:
-    """Bits of ``tdata`` with a pixel of one view, 0 above."""
+    """Bits of ``tdata`` that holds a pixel of one view, with 0 above it."""
     return whole_bytes(pixel.size)
 
 
 def pixel_of(bits: Value, pixel: PixelFormat) -> Value:
-    """A pixel as the core wants it, red lowest, of the same in UG934's order."""
+    """A pixel in the core's order, red lowest, from one in UG934's order."""
     order = CHANNELS[pixel.channels]
     return Cat(bits.word_select(order.index(k), pixel.bits) for k in range(pixel.channels))
 
@@ -40,7 +40,7 @@ def bits_of(value: Value, pixel: PixelFormat) -> Value:
 
 
 def outcome_layout(config: Config, *, left: bool = False) -> data.StructLayout:
-    """``tdata`` of a result, byte by byte, lowest first; on request with its pixel of the left view."""
+    """``tdata`` of a result, byte by byte, lowest first; with its pixel of the left view on request."""
     return data.StructLayout(
         {
             "disparity": DISPARITY_BITS,
@@ -53,6 +53,6 @@ def outcome_layout(config: Config, *, left: bool = False) -> data.StructLayout:
 
 
 def extended(value: Value, signed: bool) -> Value:
-    """A disparity in all of its bits."""
+    """A disparity extended to `DISPARITY_BITS`."""
     sign = value[-1] if signed else Const(0, 1)
     return Cat(value, sign.replicate(DISPARITY_BITS - len(value)))

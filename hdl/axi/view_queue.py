@@ -1,4 +1,4 @@
-"""A view's pixels, kept until the other view's are there."""
+"""Keeps one view's pixels until the other view's arrive."""
 
 from amaranth.hdl import ClockDomain, ClockSignal, Module, ResetSignal, Signal
 from amaranth.lib import data, stream, wiring
@@ -17,21 +17,21 @@ def view_layout(bits: int) -> data.StructLayout:
 class ViewQueue(wiring.Component):
     """A queue in block RAM, with a register stage behind it: a pixel a clock.
 
-    With a clock of its own, the stream ``i`` is synchronous to that, and Amaranth's `AsyncFIFOBuffered`
-    brings pixels over; its depth is a power of two, and one more. The core's reset is brought over the other
-    way, a clock late, so that there is one reset for both sides. From then on nothing is taken.
+    With a clock of its own, the stream ``i`` is synchronous to that clock, and Amaranth's
+    `AsyncFIFOBuffered` carries pixels across; its depth is a power of two plus one. The core's reset crosses
+    the other way, a clock late, and resets both sides. Once it has arrived, nothing is taken.
 
     Parameters
     ----------
     bits : of a pixel.
-    depth : pixels that are kept at least.
-    own_clock : whether ``i`` is synchronous to ``clk``, and not to the core's clock.
+    depth : pixels that it holds, at least.
+    own_clock : whether ``i`` is synchronous to ``clk`` instead of the core's clock.
 
     Members
     -------
     clk : of ``i``, with ``own_clock``.
     i, o : streams of `view_layout`.
-    full : no place is left.
+    full : no room is left.
     """
 
     def __init__(self, bits: int, depth: int, *, own_clock: bool = False) -> None:

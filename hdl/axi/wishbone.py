@@ -1,4 +1,4 @@
-"""Wishbone to the accesses of a register bank."""
+"""Turns Wishbone transfers into accesses to a register bank."""
 
 from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
@@ -23,12 +23,12 @@ def wishbone(word_bits: int) -> dict[str, wiring.Member]:
 
 
 class Wishbone(wiring.Component):
-    """Answers each access a clock after it came: one every second clock.
+    """Answers each access a clock after it arrives: one every two clocks.
 
     Members
     -------
     cyc ... ack : Wishbone.
-    bus : the bank.
+    bus : accesses to the bank.
     """
 
     def __init__(self, word_bits: int) -> None:

@@ -13,11 +13,11 @@ HOLD_CLOCKS = 256
 
 
 class Clocking(wiring.Component):
-    """Makes a clock of ``board.core_hz``, and a reset that lasts until it is good.
+    """Makes a clock of ``board.core_hz``, and a reset that lasts until that clock is good.
 
     Parameters
     ----------
-    board : whose part and oscillator.
+    board : gives the part and the oscillator.
     simulated : leave the PLL out: the oscillator's pin takes the core's clock itself.
 
     Members
@@ -43,7 +43,7 @@ class Clocking(wiring.Component):
         m.d.comb += ClockSignal("waking").eq(self.clock)
         m.submodules.release = ResetSynchronizer(~locked | self.button, domain="waking", stages=3)
 
-        # The button bounces; each bounce begins the wait anew.
+        # The button bounces; each bounce restarts the wait.
         held = Signal(range(HOLD_CLOCKS))
         with m.If(held == HOLD_CLOCKS - 1):
             m.d.waking += self.reset.eq(0)

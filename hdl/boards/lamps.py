@@ -1,4 +1,4 @@
-"""LEDs that a person can read: blinking, and short events made long."""
+"""LEDs that a person can read: a blink, and short events made longer."""
 
 from amaranth.hdl import Module, Signal
 from amaranth.lib import wiring
@@ -13,12 +13,12 @@ class Lamps(wiring.Component):
 
     Parameters
     ----------
-    clock_hz : of the clock.
+    clock_hz : frequency of the clock.
 
     Members
     -------
-    receiving_now, troubled_now : events, a clock long; they light their lamp for an eighth of a second or so.
-    active, fault : levels, as they are.
+    receiving_now, troubled_now : events, a clock long; each lights its lamp for about an eighth of a second.
+    active, fault : levels, shown as they are.
     alive, locked, receiving, busy, error : high is lit.
     """
 

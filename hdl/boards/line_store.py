@@ -11,7 +11,7 @@ from softdepth.spec.protocol import pair_bytes
 
 
 class LineStore(wiring.Component):
-    """Holds one line of the link's bytes in block RAM; gives it to the core, markers added, when told.
+    """Holds one line of bytes from the link in block RAM; adds markers and feeds it to the core when told.
 
     The next line may arrive while this one is read, as long as it does not overtake the reader.
 
@@ -21,9 +21,9 @@ class LineStore(wiring.Component):
     begin : a frame begins: the next line is its first.
     valid, data : a byte of a line: `pair_bytes` a pair, red, green, blue (or gray), left first.
     close : the line has ended, and the next begins.
-    overrun : the line has overtaken the reader, and is spoilt; until ``close``.
+    overrun : the line has overtaken the reader and is spoilt; lasts until ``close``.
     feed : the line in store is sound: give it to the core.
-    busy : it is on its way there.
+    busy : the line is on its way to the core.
     complete : the frame's last line has been fed.
     o : stream of `pair_layout(config.pixel)`.
     """
@@ -56,7 +56,7 @@ class LineStore(wiring.Component):
         y = Signal.like(self.height)
         self._write(m, write, x)
 
-        # Comparisons have registers of their own: x and y stand still for two clocks at least.
+        # Comparisons have registers of their own: x and y hold still for at least two clocks.
         last_column = Signal()
         last_row = Signal()
         m.d.sync += [
@@ -65,7 +65,7 @@ class LineStore(wiring.Component):
             self.complete.eq(y == self.height),
         ]
         m.d.comb += read.addr.eq(x)
-        # Three clocks a pair: the serial port is slower by far.
+        # Three clocks a pair: the serial port is far slower.
         with m.FSM():
             with m.State("IDLE"), m.If(self.feed):
                 m.next = "READ"
@@ -94,7 +94,7 @@ class LineStore(wiring.Component):
         return m
 
     def _write(self, m: Module, write: WritePort, x: Signal) -> None:
-        """Bytes gather to a pair, which is written with its last byte."""
+        """Gathers bytes into a pair, which is written when its last byte arrives."""
         pixel = self._pixel
         count = pair_bytes(pixel)
         place = Signal(range(count))

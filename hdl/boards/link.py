@@ -30,7 +30,7 @@ class SerialCore(wiring.Component):
     ----------
     config : of the core.
     divisor : clocks per bit of the line.
-    hello : what the board says of itself (`softdepth.spec.protocol.describe`), kept in a ROM.
+    hello : what the board says about itself (`softdepth.spec.protocol.describe`), kept in a ROM.
 
     Members
     -------
@@ -69,7 +69,7 @@ class SerialCore(wiring.Component):
         m.submodules.sender = sender = PacketSender()
         m.submodules.transmitter = transmitter = UartTransmitter(self._divisor)
 
-        # A session begins with everything behind the link as after power-up.
+        # A session begins with everything behind the link as it is after power-up.
         fresh = ResetInserter(session.restart)
         lines, core, results = LineStore(config), StereoCore(config), ResultStore(config)
         m.submodules.lines = fresh(lines)
@@ -133,7 +133,7 @@ class SerialCore(wiring.Component):
     def _payload(
         self, m: Module, outbox: Outbox, sender: PacketSender, results: ResultStore, counters: Value
     ) -> None:
-        """The payload's byte that the sender is at. A byte's time is long enough to read a memory."""
+        """Gives the sender the payload's byte that it is at. A byte takes long enough to read a memory."""
         m.submodules.hello = hello = Memory(shape=8, depth=len(self._hello), init=list(self._hello))
         text = hello.read_port()
         m.d.comb += [
@@ -148,7 +148,7 @@ class SerialCore(wiring.Component):
             with m.Case(REPLY | Type.LINE, REPLY | Type.FETCH):
                 m.d.sync += sender.data.eq(Mux(sender.index < ROW.size, row, results.data))
             with m.Case(REPLY | Type.STATUS):
-                # The host waits for this reply, so that the counters stand still.
+                # The host waits for this reply, so the counters stand still.
                 place = sender.index[: (COUNTERS.size - 1).bit_length()]
                 m.d.sync += sender.data.eq(counters.word_select(place, 8))
             with m.Default():

@@ -1,4 +1,4 @@
-"""The outbox: a reply that waits for the sender, and what the sender needs to know of it."""
+"""The outbox: a reply that waits for the sender, and what the sender needs to know about it."""
 
 from collections.abc import Mapping
 
@@ -11,10 +11,10 @@ from softdepth.spec.config import Config
 from softdepth.spec.protocol import REPLY, ROW, Type, result_bytes
 
 Reply = data.StructLayout({"type": 8, "has_line": 1, "slot": range(SLOTS), "row": 16})
-"""A reply, as it is kept to be sent again: its type, and the line of results that is in it."""
+"""A reply as it is kept for sending again: its type, and the line of results in it."""
 
 Letter = data.StructLayout({"reply": Reply, "sequence": 16, "note": 8})
-"""A reply with its address; ``note`` is an error's or a repetition's reason."""
+"""A reply with its address; ``note`` is the reason for an error or a repetition."""
 
 
 class Outbox(wiring.Component):
@@ -22,14 +22,14 @@ class Outbox(wiring.Component):
 
     Parameters
     ----------
-    lengths : bytes of the payload by type, where it is always the same and not 0.
+    lengths : bytes of the payload by type, where their number is fixed and not 0.
 
     Members
     -------
     post, i : a reply is put in; not while ``full``.
     full : a reply waits.
     width : of the frame, in pixels.
-    start, sending : the reply ``o`` is to be sent; the sender is at it.
+    start, sending : the reply ``o`` is to be sent; the sender is busy with it.
     o, length : the reply, and the bytes of its payload; steady while it is sent.
     """
 

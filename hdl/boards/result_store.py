@@ -1,4 +1,4 @@
-"""Result store: lines of results wait until the host has them for certain."""
+"""Result store: lines of results wait until the host is certain to have them."""
 
 from amaranth.hdl import Array, Cat, Module, Mux, Signal, Value
 from amaranth.lib import stream, wiring
@@ -12,22 +12,22 @@ from softdepth.spec.protocol import WINDOW, result_bytes
 SLOTS = WINDOW + 2
 """One line for each reply that may have to be sent again, one that is ready, and one that the core fills.
 
-With fewer the core would wait in the middle of a line for a reply to be confirmed by the next line."""
+With fewer, the core would stall in the middle of a line until the next line confirms a reply."""
 
 
 class ResultStore(wiring.Component):
-    """A ring of `SLOTS` lines in block RAM. The core fills it, and waits where it is full.
+    """A ring of `SLOTS` lines in block RAM. The core fills it, and waits when it is full.
 
     Members
     -------
     i : stream of the core's results.
     width : of the frame, in pixels.
-    ready : the oldest line that was not yet claimed is complete; it lies in ``slot``.
-    slot : name of that line, for `address` below.
-    claim : it goes into a reply. Claimed lines stay.
+    ready : the oldest line not yet claimed is complete; it lies in ``slot``.
+    slot : where that line lies, to be given as ``read_slot``.
+    claim : that line goes into a reply. Claimed lines stay.
     release : the oldest claimed line is no longer needed.
     read_slot, index, data : byte ``index`` of the line in ``read_slot``, a clock later.
-    fault : the core gave a frame that is not of this width, or marked as damaged.
+    fault : the core gave a frame that has not this width, or that is marked as damaged.
     """
 
     def __init__(self, config: Config) -> None:

@@ -1,4 +1,4 @@
-"""The board's end of the conversation: which packet is the next, what it asks, and its reply."""
+"""The board's end of the conversation: which packet comes next, what it asks for, and the reply."""
 
 from amaranth.hdl import Array, Cat, Const, Module, Signal, Value
 from amaranth.lib import data, wiring
@@ -14,21 +14,21 @@ PACKETS, BROKEN, GAPS, OVERRUNS = range(4)
 
 
 class Session(wiring.Component):
-    """Takes sound packets in their order, and decides what to do and what to answer.
+    """Takes sound packets in order, and decides what to do and what to answer.
 
-    A request of the awaited sequence number is carried out. One of the `WINDOW` before it is answered
-    again, and changes nothing. Any other, and a broken packet, calls for a repetition. The request after
-    the next confirms a reply, and so frees its line of results.
+    A request with the awaited sequence number is carried out. One of the `WINDOW` before it is answered
+    again and changes nothing. For any other, and for a broken packet, the board asks for a repetition. A
+    reply is confirmed by the request after the next, which frees its line of results.
 
     Members
     -------
-    good, bad, version, type, sequence, length : of the packet that ended, from the parser.
+    good, bad, version, type, sequence, length : of the packet that has ended, from the parser.
     payload_valid, payload : bytes of its payload.
     restart : a session begins: everything behind the link is reset.
     begin, width, height : a frame begins, and its size.
-    feed : the line that came is sound, and enters the core.
-    feeding, fed : the line before it is still entering; the frame's last has entered.
-    overrun : the line that came is spoilt.
+    feed : the line that has come is sound and enters the core.
+    feeding, fed : the line before it is still entering; the frame's last line has entered.
+    overrun : the line that has come is spoilt.
     ready, slot, claim, release : of the result store.
     fault : of the result store.
     post, letter, full : of the outbox.
@@ -74,7 +74,7 @@ class Session(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        # Packets are far apart, so that what is asked about them may take its time.
+        # Packets are far apart, so there is time to register what is worked out about them.
         good = Signal()
         bad = Signal()
         awaited = Signal(16)
@@ -100,7 +100,7 @@ class Session(wiring.Component):
             with m.If(started & ~self.full):
                 self._repeat(m, Repeat.BROKEN)
         with m.Elif(good & self.full):
-            # Not even the reply before is begun: the host does not keep to the window. It may ask again.
+            # Not even the previous reply has begun: the host does not keep to the window. It may ask again.
             m.d.comb += event[OVERRUNS].eq(1)
         with m.Elif(good):
             m.d.comb += event[PACKETS].eq(1)
@@ -135,7 +135,7 @@ class Session(wiring.Component):
         return m
 
     def _examine(self, m: Module) -> None:
-        """What has to be known of the requests that have a payload."""
+        """Works out what must be known about requests with a payload."""
         size = Signal(8 * SIZE.size)  # the payload's last bytes
         with m.If(self.payload_valid):
             m.d.sync += size.eq(Cat(size[8:], self.payload))
@@ -154,13 +154,13 @@ class Session(wiring.Component):
                 & (height <= config.max_height)
             ),
             self._is_size.eq(self.length == SIZE.size),
-            # Without a multiplier: as many shifted widths as a pair's bytes have bits.
+            # Without a multiplier: a shifted width for each bit that is set in the number of a pair's bytes.
             line_bytes.eq(sum(self.width << bit for bit in range(each.bit_length()) if each >> bit & 1)),
             self._is_line.eq(self.length == line_bytes),
         ]
 
     def _carry_out(self, m: Module, old: Value) -> None:
-        """The awaited request."""
+        """Carries out the awaited request."""
         width, height = self._size
         with m.Switch(self.type):
             with m.Case(Type.BEGIN):
@@ -189,7 +189,7 @@ class Session(wiring.Component):
                 self._refuse(m, Reason.TYPE)
 
     def _accept(self, m: Module, old: Value, with_line: bool = False) -> None:
-        """The reply takes the place of one that is now confirmed; it has a line if one is ready."""
+        """The reply replaces one that is now confirmed; it carries a line if it may and one is ready."""
         reply = self.letter.reply
         m.d.comb += [self.post.eq(1), reply.type.eq(REPLY | self.type), self.release.eq(old.has_line)]
         m.d.sync += [self._awaited.eq(self.sequence + 1), old.eq(reply)]

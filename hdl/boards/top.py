@@ -31,14 +31,14 @@ def line_divisor(board: Board) -> int:
 
 
 class BoardTop(wiring.Component):
-    """What goes into the FPGA of a board. Ports have the names of its file in ``constraints/``.
+    """What goes into the FPGA of a board. Ports are named as in its file in ``constraints/``.
 
     Parameters
     ----------
     board : the board.
     config : the core's configuration.
     revision : what the board says it was built from, for example a version and a git revision.
-    simulated : leave the PLL out: ``clk`` is then the core's clock. All else is as on the board.
+    simulated : leave the PLL out: ``clk`` is then the core's clock. Everything else is as on the board.
 
     Members
     -------
@@ -47,8 +47,8 @@ class BoardTop(wiring.Component):
     button : resets the core, on boards that have one.
     led : see `softdepth.hdl.boards.wiring`.
 
-    Further pins are held high where the board wants that. Raises `ConfigError` if the part cannot make
-    the core's clock, or the clock not the serial line's rate.
+    Further pins are held high where the board needs it. Raises `ConfigError` if the part cannot make the
+    core's clock, or if that clock cannot make the serial line's rate.
     """
 
     def __init__(self, board: Board, config: Config, revision: str = "", *, simulated: bool = False) -> None:

@@ -1,4 +1,4 @@
-"""What hangs on a board's pins: the names are those of its file in ``constraints/``."""
+"""What is connected to a board's pins, which are named as in its file in ``constraints/``."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -11,14 +11,14 @@ fault keeps ``error`` lit."""
 
 @dataclass(frozen=True)
 class Wiring:
-    """The pins of a board beside clock and serial port.
+    """The pins of a board other than clock and serial port.
 
     Members
     -------
     lamps : what each LED shows, from ``led[0]`` on.
     lamp_on : the level that lights an LED.
     button_pressed : the level of the pressed reset button, or None where the board has no button.
-    high : pins that have to be held high.
+    high : pins that must be held high.
     """
 
     lamps: tuple[Lamp, ...]

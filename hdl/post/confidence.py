@@ -12,8 +12,8 @@ class Confidence(wiring.Component):
 
     Members
     -------
-    cost, runner_up : the smallest cost, and that of the best candidate which is not its neighbour.
-    has_runner_up : there is one.
+    cost, runner_up : the smallest cost, and that of the best candidate that is not next to it.
+    has_runner_up : there is a runner-up.
     o : the confidence, `latency` clocks later.
     """
 

@@ -1,4 +1,4 @@
-"""Fills pixels without a measurement from their row."""
+"""Fills pixels without a measurement from their own row."""
 
 from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
@@ -11,14 +11,14 @@ from softdepth.spec.config import CONFIDENCE_BITS
 from softdepth.spec.validity import Validity
 
 UNMEASURED = 3
-"""Where the end of a measured result stands."""
+"""Stands where a measured result has its end: this result is not measured, and its end is elsewhere."""
 
 
 def _waiting_layout(colour_bits: int) -> data.StructLayout:
     """A result in the queue, two words of 18 bits with colour; its value waits among the measured ones.
 
     ``end`` : 0, 1 for a line's last and 2 for a frame's, or `UNMEASURED`.
-    ``about`` : of a measurement its confidence, else that end.
+    ``about`` : the confidence of a measurement, else that end.
     """
     return data.StructLayout(
         {
@@ -34,10 +34,10 @@ def _waiting_layout(colour_bits: int) -> data.StructLayout:
 class Fill(wiring.Component):
     """Gives each result without a measurement the smaller of the row's nearest measurements left and right.
 
-    Measured values wait in a queue of their own, with a mark after those of each row. The queue's head is the
-    nearest measurement to the right, once it has arrived; the last one that left is the nearest to the left.
-    Filled results have confidence 0. In a row without measurements the value is 0, and the code says so. One
-    result a clock, except for one clock a line; a result waits for the next measurement of its row.
+    Measured values wait in a queue of their own, with a mark after those of each row. The head of the queue,
+    once it has arrived, is the nearest measurement to the right; the last one to leave is the nearest to the
+    left. Filled results have confidence 0. In a row without measurements, the value is 0 and the code says
+    so. One result a clock, except for one clock a line; a result waits for the next measurement of its row.
 
     Members
     -------
@@ -45,7 +45,7 @@ class Fill(wiring.Component):
     """
 
     latency = PackedQueue.latency + ItemQueue.latency
-    """Of a measurement; what has none waits for the next, or the line's end."""
+    """Of a measurement; a result without one waits for the next measurement, or for the end of the line."""
 
     def __init__(self, value_bits: int, colour_bits: int, max_width: int) -> None:
         self._layout = post_layout(value_bits, colour_bits)
@@ -98,8 +98,8 @@ class Fill(wiring.Component):
             left_is_smaller.eq(any_left & (head.mark | (last < head.value))),
             nothing.eq(~any_left & head.mark),
         ]
-        # Places behind the choice, because the queues' outputs are far away, and so that no ``ready`` reaches
-        # through to them.
+        # Places behind the choice, because the queues' outputs are far away, and to keep ``ready`` from
+        # reaching through to them.
         m.submodules.chosen = places = ItemQueue(self._layout)
         chosen = places.i.payload
         gives = Signal()

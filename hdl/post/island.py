@@ -14,10 +14,10 @@ from softdepth.spec.validity import Validity
 
 
 class Island(wiring.Component):
-    """Makes a measurement an island if its 5x5 pixels, itself included, have fewer than ``least`` of them.
+    """Turns a measurement into an island if the 5x5 pixels around it, with itself, hold fewer than ``least``.
 
-    The frame's edge is repeated. An island has value 0 and confidence 0; other results pass. A result
-    every ``clocks`` clocks, except for 4 of them a line and 2 lines a frame.
+    The frame's edge is repeated. An island has value 0 and confidence 0; other results pass unchanged. One
+    result every ``clocks`` clocks, except for 4 of them a line and 2 lines a frame.
 
     Members
     -------
@@ -46,7 +46,7 @@ class Island(wiring.Component):
         layout = without_markers(self._layout)
         window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width, clocks=self.clocks)
         found = [element for row in window.window for element in row]
-        # In halves: counted together they would take most of a clock.
+        # In two halves: counted together, they would take most of a clock.
         half = len(found) // 2
         counts = []
         for name, part in (("first", found[:half]), ("second", found[half:])):

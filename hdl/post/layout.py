@@ -7,7 +7,7 @@ from softdepth.hdl.memory.window import MARKERS
 from softdepth.spec.config import CONFIDENCE_BITS
 
 CODE_BITS = 3
-"""Of all `Validity` codes."""
+"""Bits that hold any `Validity` code."""
 
 
 def post_layout(value_bits: int, colour_bits: int) -> data.StructLayout:
@@ -27,7 +27,7 @@ def post_layout(value_bits: int, colour_bits: int) -> data.StructLayout:
 
 
 def without_markers(layout: data.StructLayout, *left_out: str) -> data.StructLayout:
-    """The members of a result without the markers and without those ``left_out``."""
+    """A result's members without the markers and without those ``left_out``."""
     kept = {name: shape for name, shape in layout.members.items() if name not in (*MARKERS, *left_out)}
     return data.StructLayout(kept)
 

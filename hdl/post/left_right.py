@@ -14,11 +14,11 @@ from softdepth.hdl.signatures import TOLERANCE_BITS
 class LeftRight(wiring.Component):
     """Compares each left winner with the winner of the right pixel that it chose.
 
-    The right winner of a slot's column is known ``disparities - 1`` slots later. Left results wait that
-    long, and the right winners of that many columns are kept. One slot a clock.
+    The right winner of a slot's column is known ``disparities - 1`` slots later. Left results wait for as
+    long, and the right winners of as many columns are kept. One slot a clock.
 
-    A winner comes `lead` clocks before what else belongs to its slot, which is still computed then. In these
-    the right winner is addressed, read, and subtracted, a clock each.
+    A winner comes `lead` clocks before the rest of its slot, which is still being computed. In these clocks
+    the right winner is addressed, read and subtracted, a clock each.
 
     Parameters
     ----------
@@ -27,11 +27,11 @@ class LeftRight(wiring.Component):
 
     Members
     -------
-    valid, winner, right : of a slot: the left winner, and the right winner that leaves with it.
-    emits, result : `lead` clocks later: whether it has a result, and what belongs to it.
+    valid, winner, right : a slot's left winner, and the right winner that leaves with it.
+    emits, result : `lead` clocks later: whether the slot has a result, and what belongs to it.
     tolerance : the parameter's value unless it is driven. It may change between frames.
     done : a slot has been judged, `lead` and `latency` clocks later, whether or not it has a result.
-    o_emits, agrees, o : whether it has one, whether the views agree, and what belongs to it.
+    o_emits, agrees, o : whether the slot has a result, whether the views agree, and what belongs to it.
     """
 
     lead = 4
@@ -61,8 +61,8 @@ class LeftRight(wiring.Component):
         bits = (disparities - 1).bit_length()
         valid = travelling(m, self.valid, self.lead, "valid")
 
-        # Clock 1: the left winner. Clock 2: which right one it is held against. Clock 3: that. Clock 4: the
-        # difference. A right winner is written a clock late, so that the place of the oldest is read before.
+        # Clock 1: the left winner. Clock 2: where its right winner lies. Clock 3: that right winner. Clock 4:
+        # the difference. A right winner is written a clock late, after the oldest one's place has been read.
         m.submodules.winners = winners = Delay(range(disparities), disparities - 1, registers=False)
         m.d.comb += [winners.en.eq(self.valid), winners.i.eq(self.winner)]
         m.submodules.rights = rights = Memory(shape=range(disparities), depth=1 << bits, init=[])
@@ -104,14 +104,14 @@ class LeftRight(wiring.Component):
             waits.i.emits.eq(self.emits),
             waits.i.result.eq(self.result),
         ]
-        # What was waiting before a reset is not a result.
+        # Whatever was waiting before a reset is not a result.
         slots = Signal(range(disparities))
         warm = Signal()
         m.d.comb += warm.eq(slots == disparities - 1)
         with m.If(valid[self.lead] & ~warm):
             m.d.sync += slots.eq(slots + 1)
 
-        # What comes out of memory goes to registers alone, which may be the memory's own.
+        # The memory's output goes only to registers, which may be the memory's own.
         done = Signal()
         counts = Signal()
         agrees = Signal(reset_less=True)

@@ -16,23 +16,23 @@ from softdepth.hdl.post.stage import delayed, waiting
 
 
 class MaskedMedians(wiring.Component):
-    """Replaces each value by a lower median in its row, and that by one in its column; the rest stays.
+    """Replaces each value by a lower median in its row, then by one in its column; the rest is unchanged.
 
     Of ``2 reach + 1`` pixels, those count that lie inside the frame and whose colour differs from the
     centre's by less than ``like`` in every channel; the centre always counts. With ``holes``, results
     without a measurement are left out and stay as they are.
 
     Two pixels are compared once, when the later one arrives, and the answer is kept for both. So only half of
-    the comparisons are built, and rows above keep their colours only for half of the window. A pixel outside
-    the frame is like no other, so its colour and value do not matter and no edge is repeated. Both medians
-    use the same slots: ``reach`` more per line and ``reach`` more lines per frame, in which the input is held
-    back. One result every ``clocks`` clocks.
+    the comparisons are built, and the colours of the rows above are kept for only half of the window. A pixel
+    outside the frame is like no other, so its colour and value do not matter and no edge is repeated. Both
+    medians use the same slots: ``reach`` more per line and ``reach`` more lines per frame, in which the input
+    is held back. One result every ``clocks`` clocks.
 
     Parameters
     ----------
-    value_bits, colour_bits, channels : of a result, and how many equal parts its colour has.
+    value_bits, colour_bits, channels : of a result; ``channels`` is how many equal parts its colour has.
     like : a number, or a signal that may change between frames.
-    clocks : the least that a pixel takes, 1 or 2. With 2, memory and its multiplexers are smaller.
+    clocks : the fewest that a pixel takes, 1 or 2. With 2, the memory and its multiplexers are smaller.
 
     Members
     -------
@@ -184,7 +184,7 @@ class MaskedMedians(wiring.Component):
         with m.If(puts):
             m.d.sync += fresh.eq(eof)
         m.d.comb += [
-            # With a single median, the row of a slot must not come together with the column of another.
+            # With a single median, one slot's row must not arrive together with another slot's column.
             slots.credit.eq(queue.credit & ~slot[-1] if self._shared else queue.credit),
             queue.promised.eq(slots.emits),
             queue.put.eq(puts),
@@ -217,8 +217,8 @@ class MaskedMedians(wiring.Component):
     def _put(self) -> int:
         """Clocks from a slot to when its row's median goes on top of its column.
 
-        An even number where a median is shared, so that the column is there between two rows of slots that
-        follow each other every other clock.
+        An even number where a median is shared: rows of slots follow each other every other clock, and the
+        column then comes between two of them.
         """
         put = max(self._row_ready, 2 + RowStack.ahead + self.clocks - 1)
         return put + put % 2 if self._shared else put

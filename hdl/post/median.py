@@ -58,7 +58,7 @@ class Median(wiring.Component):
         samples = [s for row in window.window for s in row]
         centre = window.window[rows][columns]
 
-        # A clock says which samples are kept.
+        # This clock finds out which samples are kept.
         values = [Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(len(samples))]
         m.d.sync += [v.eq(s.value) for v, s in zip(values, samples, strict=True)]
         m.submodules.median = median = self._median

@@ -1,4 +1,4 @@
-"""Puts results of the columns in which the views overlap into the frame."""
+"""Puts the results of the columns in which the views overlap into the whole frame."""
 
 from amaranth.hdl import Module, Mux, Shape, Signal
 from amaranth.lib import data, stream, wiring
@@ -17,10 +17,10 @@ def placed_layout(config: Config) -> data.StructLayout:
 
 
 class Placed(wiring.Component):
-    """Adds `Config.min_disparity` to what has a value, and border results for the columns beside the overlap.
+    """Adds `Config.min_disparity` to each value, and border results for the columns beside the overlap.
 
-    Border results come before a line's results if it is positive, and after them if it is negative. One
-    result a clock.
+    Border results come before a line's results if `Config.min_disparity` is positive, and after them if it
+    is negative. One result a clock.
 
     Members
     -------

@@ -21,10 +21,10 @@ class LowerMedian(wiring.Component):
     """Of the kept samples, the one of rank ``(number - 1) >> 1`` in ascending order. One set a clock.
 
     It is found bit by bit from the top. Among the samples that may still be the median, those with a 0 in
-    this bit are counted. If there are more of them than the rank, the median is one of them. Otherwise it is
-    one of the others, and the rank is lowered by their number. No sample is ever moved. Each bit takes a
-    clock to count, each half by itself, and one to add and decide; bits whose turn is far off wait in
-    distributed RAM. If not all samples are kept, one more clock counts those that are.
+    the current bit are counted. If their number is larger than the rank, the median is one of them. Otherwise
+    it is one of the rest, and their number is subtracted from the rank. No sample is ever moved. Each bit
+    takes one clock to count, each half by itself, and one to add and decide; bits whose turn is far off wait
+    in distributed RAM. If not all samples are kept, one more clock counts those that are.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ class LowerMedian(wiring.Component):
         return m
 
     def _counted(self, m: Module, bits: Value, name: str) -> list[Value]:
-        """How many of a set's bits are set, a clock later: two numbers that are still to be added."""
+        """How many bits are set, a clock later, as two numbers that are still to be added."""
         half = self._samples // 2
         counts: list[Value] = []
         for part in (bits[:half], bits[half:]):

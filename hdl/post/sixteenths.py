@@ -46,7 +46,7 @@ class Sixteenths(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         bits = self._bits
-        # Clock 1: differences. Clock 2: what is divided.
+        # Clock 1: differences. Clock 2: dividend and divisor.
         rise = Signal(unsigned(bits), reset_less=True)
         skew = Signal((self.below - self.above).shape(), reset_less=True)
         larger = Mux((self.below - self.above)[-1], self.above, self.below)

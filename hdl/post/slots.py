@@ -1,4 +1,4 @@
-"""Decides when pixels enter a pair of windows that lag behind, and when their results leave."""
+"""Decides when pixels enter two windows that lag behind them, and when their results leave."""
 
 from amaranth.hdl import Cat, Module, Mux, Signal
 from amaranth.lib import wiring
@@ -27,12 +27,12 @@ class PostSlots(wiring.Component):
     valid, ready, sof, eol, eof, damaged : the pixels of sound frames.
     credit : a slot may begin.
     slot : a slot begins.
-    stores, x : its pixel lies in the frame's columns, and in which.
-    before, above : of the ``reach`` pixels before it, and above it, nearest first, which lie in its line, and
-        in the frame. None does above a pixel below the frame.
-    enters, o_eol : the middle of the row is a pixel of the frame or below, and its line's last.
-    emits, o_eof, o_damaged : that of the column is one of the frame, the frame's last, and the frame was
-        mended so far.
+    stores, x : its pixel lies in one of the frame's columns; which one.
+    before, above : which of the ``reach`` pixels before it, nearest first, lie in its line, and which of
+        those above it lie in the frame. Above a pixel below the frame, none does.
+    enters, o_eol : the middle of the row is a pixel of the frame or below it; it is its line's last.
+    emits, o_eof, o_damaged : the middle of the column is a pixel of the frame; it is the frame's last; the
+        frame was mended so far.
     """
 
     def __init__(self, reach: int, max_width: int, clocks: int) -> None:
@@ -107,7 +107,7 @@ class PostSlots(wiring.Component):
                 with m.Elif(last):
                     below.step()
 
-        # What is known of each pixel until it is in the middle of its row.
+        # What is known of each pixel, kept until it is in the middle of its row.
         enters = Signal(reach)
         emits = Signal(reach)
         eol = Signal(reach, reset_less=True)

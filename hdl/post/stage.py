@@ -27,7 +27,7 @@ def window_stage(
 
     Parameters
     ----------
-    window : a `Window` or what has its ports.
+    window : a `Window`, or a component with its ports.
     i, o : the streams; both have the markers.
     latency : clocks from the window to ``results``.
     element, companion : of the input's payload.
@@ -65,7 +65,7 @@ def delayed(m: Module, value: Value, clocks: int, name: str) -> Value:
 
 
 def waiting(m: Module, value: Value, clocks: int, name: str) -> Value:
-    """``value`` after so many clocks, in distributed RAM: for many bits that wait for long."""
+    """``value`` after so many clocks, in distributed RAM: for many bits that wait for a long time."""
     value = Value.cast(value)
     m.submodules[f"waiting_{name}"] = wait = Delay(value.shape(), clocks, registers=False)
     m.d.comb += [wait.en.eq(1), wait.i.eq(value)]

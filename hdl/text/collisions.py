@@ -14,7 +14,7 @@ def waive_collisions(rtlil: str) -> str:
     """RTLIL in which collisions do not matter in the slices of `SlicedMemory` and `PackedMemory` and in the
     rings of `Delay`, and in no other memory.
 
-    Amaranth has no word for it, and without it yosys surrounds each block RAM with the logic that
-    gives the old word to a read that meets a write.
+    Amaranth cannot express this, and without it yosys surrounds each block RAM with logic that gives the
+    old word to a read that meets a write.
     """
     return _READ_PORT.sub(r"\g<1>1\n", rtlil)

@@ -1,4 +1,4 @@
-"""Memories in RTLIL and in Verilog text: what they hold at first, and what a collision gives."""
+"""Memories in RTLIL and in Verilog text: their initial words, and what a read gets in a collision."""
 
 import re
 from collections.abc import Iterator
@@ -13,16 +13,16 @@ _NEVER_MET = re.compile(r"^  (reg (?:\[\d+:0\] )?(?:slice_\d+(?:_\d+)?|ring) \[\
 
 
 def without_zeros(rtlil: str) -> str:
-    """RTLIL of the same design, whose memories are not said to be all 0 at first.
+    """RTLIL of the same design, without initial words for memories that start as all 0.
 
-    Others keep their initial words. Nothing that the core gives depends on what its memories hold at first,
-    and readers of Verilog take minutes and gigabytes over a million words that are set one by one.
+    Other memories keep theirs. Nothing that the core gives depends on what its memories hold at first, and
+    readers of Verilog take minutes and gigabytes for a million words that are set one by one.
     """
     return _CLEARED.sub("", rtlil)
 
 
 def ready_to_simulate(verilog: str) -> str:
-    """Verilog text in which memories, and registers that read them, are 0 at first, for simulators alone.
+    """Verilog text in which memories, and registers that read them, start at 0, but only in simulators.
 
     A simulator would start from X, which some wires show though no result does.
     """
@@ -30,10 +30,10 @@ def ready_to_simulate(verilog: str) -> str:
 
 
 def collisions_waived(verilog: str) -> str:
-    """Verilog text in which slices of `SlicedMemory` and `PackedMemory`, and rings of `Delay`, are said never
-    to be read where they are written.
+    """Verilog text that declares slices of `SlicedMemory` and `PackedMemory`, and rings of `Delay`, never to
+    be read where they are written.
 
-    yosys alone knows the attribute. Without it, it builds logic that gives the word from before the write.
+    Only yosys knows the attribute. Without it, yosys builds logic that gives the word from before the write.
     """
     return _NEVER_MET.sub(r"  (* no_rw_check *) \1", verilog)
 

@@ -11,7 +11,7 @@ from amaranth.hdl._ir import PortDirection  # it has no public name
 from amaranth.lib.wiring import Component, Flow, In, Out
 
 CLOCK, RESET = "clk", "rst"
-"""Ports that a component has beside its own: those of the clock domain that it does not make itself."""
+"""Ports that a component has besides its own: those of the clock domain, unless it makes that itself."""
 
 
 def to_rtlil(component: Component, name: str, *, sources: bool = False) -> str:
@@ -19,7 +19,7 @@ def to_rtlil(component: Component, name: str, *, sources: bool = False) -> str:
 
     Ports are ``clk``, ``rst`` (synchronous, active high) and the component's own, nested names joined by
     ``_``: ``i_payload``, ``i_valid``, ... Names with ``__`` are not legal in VHDL. With `sources`, every cell
-    tells the lines that made it.
+    names the source lines that made it.
     """
     with _undisturbed():
         return rtlil.convert(component, name=name, ports=_given(ports_of(component)), emit_src=sources)
@@ -27,7 +27,7 @@ def to_rtlil(component: Component, name: str, *, sources: bool = False) -> str:
 
 @dataclass(frozen=True)
 class Port:
-    """One of a component's own ports: its name in text, its way as the component sees it, its value."""
+    """One of a component's own ports: its name in text, its direction as the component sees it, its value."""
 
     name: str
     flow: Flow
@@ -35,7 +35,7 @@ class Port:
 
 
 def ports_of(component: Component) -> list[Port]:
-    """A component's own ports, in its order."""
+    """A component's own ports, in the component's order."""
     ports: dict[str, Port] = {}
     for path, member, value in component.signature.flatten(component):
         name = "_".join(map(str, path))
@@ -46,14 +46,14 @@ def ports_of(component: Component) -> list[Port]:
 
 
 def _given(ports: list[Port]) -> dict[str, tuple[Value, PortDirection]]:
-    """The ports as Amaranth wants to be given them."""
+    """The ports in the form that Amaranth expects."""
     ways = {In: PortDirection.Input, Out: PortDirection.Output}
     return {port.name: (Value.cast(port.value), ways[port.flow]) for port in ports}
 
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Elaboration makes millions of objects that all live to its end: collecting halves its speed."""
+    """Elaboration makes millions of objects that live until it ends: garbage collection halves its speed."""
     enabled = gc.isenabled()
     gc.disable()
     try:

@@ -1,7 +1,7 @@
-"""One copy of equal modules in RTLIL text, so that synthesis does their work once.
+"""Keeps one copy of equal modules in RTLIL text, so synthesis works on each of them only once.
 
 Amaranth writes a module for every instance: a core of 16 lanes holds 16 equal lanes. Two modules are
-equal when their bodies are, but for the names of wires and cells.
+equal when their bodies are, apart from the names of wires and cells.
 """
 
 import re
@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from softdepth.spec.errors import ToolError
 
 SMALLEST_KEPT = 50
-"""Cells in a module, submodules included, from which on synthesis of its own pays. Smaller ones are
-flattened into their parents and optimised together with them."""
+"""The fewest cells, submodules included, with which it pays to synthesise a module on its own. Smaller ones
+are flattened into their parents and optimised together with them."""
 
 _MODULE = re.compile(r"^(?:attribute [^\n]*\n)*module (\S+)\n.*?^end\n", re.MULTILINE | re.DOTALL)
 _TOP = re.compile(r"(?:attribute [^\n]*\n)*?attribute \\top 1\n")
@@ -36,10 +36,10 @@ class _Module:
 
 
 def share(rtlil: str, *, smallest: float = SMALLEST_KEPT) -> str:
-    """RTLIL of the same design with equal modules once.
+    """RTLIL of the same design, with one copy of equal modules.
 
-    The outermost modules of several instances get the attribute ``keep_hierarchy``: yosys then flattens
-    everything inside them, and keeps them themselves until they are mapped.
+    The outermost modules with several instances get the attribute ``keep_hierarchy``: yosys then flattens
+    everything inside them, and keeps the modules themselves until they are mapped.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def _bottom_up(texts: dict[str, str], top: str) -> list[str]:
 def _retarget(
     cell: re.Match[str], standing: dict[str, _Module], own_ports: dict[str, tuple[str, ...]]
 ) -> str:
-    """A cell's text, made an instance of the module that stands for its own; ports go by their order."""
+    """A cell's text, turned into an instance of the module that stands for its own; ports match by order."""
     module = standing.get(cell[1])
     if module is None or module.name == cell[1]:
         return cell[0]
@@ -96,7 +96,7 @@ def _retarget(
 
 
 def _canonical(text: str) -> str:
-    """The body of a module without what may differ between equal ones: places and names."""
+    """The body of a module without what may differ between equal ones: places in the source, and names."""
     names = {match[2]: f"${number}" for number, match in enumerate(_WIRE.finditer(text))}
 
     def line_of(line: str) -> str:
@@ -118,7 +118,7 @@ def _canonical(text: str) -> str:
 
 
 def _outermost_repeated(modules: dict[str, _Module], top: str, smallest: float) -> set[str]:
-    """Modules large enough that occur several times, and lie in no other such module."""
+    """Modules that are large enough, occur several times, and lie in no other such module."""
     sizes: dict[str, int] = {}
 
     def size(name: str) -> int:

@@ -35,9 +35,9 @@ _WORD = re.compile(r"[A-Za-z_][\w$]*")
 
 
 def plain_names(verilog: str) -> str:
-    """The same text with letters, digits and ``_`` in place of escaped names, each still one name.
+    """The same text with escaped names replaced by ones of letters, digits and ``_``, still all different.
 
-    The same name becomes the same everywhere, as ports are named in two modules.
+    A name is replaced by the same one everywhere, because ports are named in two modules.
     """
     taken = set(_WORD.findall(_ESCAPED.sub(" ", verilog))) | RESERVED
     chosen: dict[str, str] = {}

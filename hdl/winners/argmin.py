@@ -23,22 +23,22 @@ class FractionMin(wiring.Component):
 
     ``a.num / a.den < b.num / b.den`` is decided as ``a.num * b.den < b.num * a.den``: two
     multiplications, no division, nothing rounded. An excluded candidate loses against any other.
-    One pair a clock. There are only registers directly before and after the multipliers, which are far from
-    the logic and have registers of their own: one clock each for the way there, the products, the comparison
-    and the choice. Plain numbers need only the last two.
+    One pair a clock. The multipliers are far from the logic and have registers of their own, so there are
+    only registers directly before and after them: one clock each for the way there, the products, the
+    comparison and the choice. Plain numbers need only the last two.
 
     Parameters
     ----------
     layout : of the candidates.
     halves : ``a`` and ``b`` come from the lower and the upper half of a range whose excluded
-        candidates are all at its upper end. Indices then count within each half, and the result's
-        has one bit more. This takes less logic: a tie is ``a``'s, and so is the exclusion.
+        candidates are all at its upper end. Indices then count within each half, and the result's index
+        has one bit more. This takes less logic: ``a`` wins ties, and ``b`` is excluded wherever ``a`` is.
 
     Members
     -------
     a, b : the candidates.
     o : the better one, `latency` clocks later.
-    early : the same a clock before, out of the choice and not out of a register.
+    early : the same a clock earlier, straight from the choice and not from a register.
     """
 
     def __init__(self, layout: data.StructLayout, *, halves: bool = False) -> None:
@@ -97,7 +97,7 @@ class ArgminTree(wiring.Component):
 
     Members
     -------
-    i : the candidates, by ascending index: `candidate_layout` of one index. The excluded ones are the
+    i : the candidates, by ascending index: `candidate_layout` of one index. The excluded ones come
         last.
     o : the best, `latency` clocks later, and its place.
     """
@@ -138,8 +138,8 @@ class ArgminTree(wiring.Component):
 class ArgminSequence(wiring.Component):
     """The best of ``count`` candidates that arrive one after the other.
 
-    Each level of a chain joins neighbours and halves the rate, so that no comparison feeds back
-    into itself and all are pipelined.
+    Each level of a chain joins neighbours and halves the rate. So no comparison feeds back into
+    itself, and all are pipelined.
 
     Members
     -------

@@ -1,4 +1,4 @@
-"""Costs in, results out: the left winner alone, of results some of which have no costs."""
+"""Costs in, results out: only the left view's winner, and results without costs in between."""
 
 from amaranth.hdl import Module, Mux, Shape, Signal
 from amaranth.lib import data, stream, wiring

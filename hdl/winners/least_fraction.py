@@ -17,7 +17,7 @@ class LeastFraction(wiring.Component):
 
     Members
     -------
-    valid, last, costs, excluded : of a step; ``last`` says that it is its pixel's last.
+    valid, last, costs, excluded : of a step; ``last`` marks its pixel's last step.
     o, found : the least cost, and whether there is any, `latency` clocks after the last step.
     """
 

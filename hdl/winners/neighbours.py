@@ -1,4 +1,4 @@
-"""What the costs beside a winner are, and the best of those that are not beside it."""
+"""The costs beside a winner, and the best of those that are not beside it."""
 
 from amaranth.hdl import Cat, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
@@ -11,24 +11,24 @@ from softdepth.hdl.winners.least_fraction import LeastFraction
 from softdepth.hdl.winners.shapes import is_fraction
 
 JOINED = 4
-"""Lanes that are joined between two registers, where one of them at most is not 0."""
+"""Lanes that are joined between two registers; at most one of them is not 0."""
 
 
 class Neighbours(wiring.Component):
     """Looks at all costs of a pixel again when its winner is known.
 
-    One step a clock. A lane costs an equality for each of three candidates, a mask, and a node of the
-    minimum, which is `FractionMin` where costs are fractions.
+    One step a clock. Each lane takes three comparisons for equality, one per candidate, a mask, and a node
+    of the minimum, which is `FractionMin` where costs are fractions.
 
     Parameters
     ----------
     cost : of a candidate, ``num / den``.
-    runner_up : it is wanted; else there is none.
+    runner_up : whether the runner-up is wanted; else there is none.
 
     Members
     -------
     valid, first, last, step : a step is taken again.
-    winner : of its slot, through all steps.
+    winner : the slot's, held through all steps.
     costs, excluded : of each lane's candidate, `costs_late` clocks after the step.
     below, above : costs of the candidates before and after the winner, `latency` clocks after the last
         step; 0 where there is none.
@@ -74,7 +74,7 @@ class Neighbours(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         lanes, steps, bits = self._lanes, self._steps, self._cost.size
-        # Lane k's candidate is `k * steps + steps - 1 - step`: what is left of the winner without the step.
+        # Lane k's candidate is `k * steps + steps - 1 - step`; without the step's part, `k * steps` is left.
         left = Signal(range(-steps, lanes * steps), reset_less=True)
         m.d.sync += left.eq(self.winner + self.step - (steps - 1))
         chosen = {}
@@ -89,7 +89,7 @@ class Neighbours(wiring.Component):
 
         # A step's cost below the winner, or above it: at most one lane has it.
         for name in ("below", "above"):
-            # Two lanes share a table: an offer and whether it is chosen, of each.
+            # Two lanes share a lookup table: each brings an offer, and whether it is chosen.
             level: list[Value] = []
             for k in range(0, lanes, 2):
                 part = Signal(bits + 1, name=f"{name}_{k}", reset_less=True)
@@ -143,11 +143,11 @@ class Neighbours(wiring.Component):
         return m
 
     def _smallest(self, m: Module, nears: list[Value], joined: int, valid: Value, first: Value) -> None:
-        """The smallest number of those that are not near, from those of `joined` clocks after their step."""
+        """Finds the smallest number that is not near; a step's is there `joined` clocks after the step."""
         lanes, bits = self._lanes, self._cost.size
         none = (1 << bits) - 1
-        # What is near or excluded loses its comparison, and where both do, none is left: that takes a table
-        # of the choice, and not one of every operand.
+        # A number that is near or excluded loses its comparison; if both are, none is left. That takes
+        # a lookup table for the choice, and not one for every operand.
         pipeline = Pipeline(m, levels=1)
         far: list[Word] = []
         for k in range(0, lanes, 2):

@@ -17,7 +17,7 @@ def number_latency(low: int, high: int) -> int:
 class Number(wiring.Component):
     """``floor(num * 2**QUOTIENT_BITS / den)``, held within a range, counted from its lower end. One a clock.
 
-    What has a ``den`` of 0 is infinite: the upper end.
+    A fraction with a ``den`` of 0 is infinite: the upper end.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Number(wiring.Component):
         m.d.sync += [dividend.eq(sum_of), divisor.eq(self.i.den)]
         under = dividend[-1]
         over = ~(dividend - (divisor << bits))[-1]
-        # Where it is neither, the division is exact.
+        # Where the number is neither under nor over, the division is exact.
         quotient = divided(m, dividend[:-1], divisor, bits)
         is_under = delayed(m, under, bits, "under")
         is_over = delayed(m, over, bits, "over")

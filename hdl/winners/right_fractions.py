@@ -1,4 +1,4 @@
-"""The right view's winner if costs are fractions, which are compared in several clocks."""
+"""The right view's winner where costs are fractions, which take several clocks to compare."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
@@ -13,15 +13,15 @@ from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 
 
 class RightFractions(wiring.Component):
-    """Like `RightWinner`, for fractions, each compared by a `FractionMin` that takes its time.
+    """Like `RightWinner`, for fractions, each compared by a `FractionMin`, which takes several clocks.
 
-    The best candidate so far of a right pixel waits in distributed RAM for the next one. In the same lane,
+    A right pixel's best candidate so far waits in distributed RAM for its next candidate. In the same lane,
     that comes ``steps - 1`` steps later. If this is time enough, all candidates follow each other as in
     `RightWinner`. With fewer steps, a right pixel has several bests, each among a part of its candidates
-    (`right_parts`). A part has those of the same step in every lane, whose next one comes ``steps**2`` steps
-    later, or in every few lanes, whose next one comes a multiple of that later. At the end the best of these
-    is found, and among equal ones that with the smallest index. A later candidate never takes over from an
-    equal one.
+    (`right_parts`). A part has the candidates of the same step in every lane, where the next comes
+    ``steps**2`` steps later, or in one of every few lanes, where it comes a multiple of that later. At the
+    end the best of these is found; of equal ones, that with the smallest index. A later candidate never
+    replaces an equal one.
 
     Parameters and members are those of `RightWinner`, except for
     latency : clocks from a slot's first step to its winner, which is held until the next.
@@ -48,7 +48,7 @@ class RightFractions(wiring.Component):
         kept = _place(m, valid[found_time], waits, "kept")
 
         best = data.StructLayout({k: v for k, v in self._candidate.members.items() if k != "excluded"})
-        # Nothing was found before the first candidate, which is 1 / 0, and which no cost is equal to.
+        # Before the first candidate nothing was found: that is 1 / 0, which no cost is equal to.
         entering: list[Value] = [best.const({"num": 1, "den": 0, "index": 0}).as_value()] * apart
         ends = []
         for lane in range(lanes):
@@ -70,7 +70,7 @@ class RightFractions(wiring.Component):
             ]
             came = entering[lane % apart]
             if one_after_the_other:
-                # What the first step found goes on in the next lane, at the next slot's last step.
+                # The first step's best goes on in the next lane, at the next slot's last step.
                 m.d.comb += Value.cast(before).eq(Mux(self.last, came, Value.cast(read.data)))
                 far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(2)]
                 with m.If(first[found_time]):

@@ -8,15 +8,15 @@ from softdepth.hdl.winners.shapes import is_fraction, right_winner_members
 
 
 class RightWinner(wiring.Component):
-    """Of each right pixel the candidate that costs least; of equal costs the smallest.
+    """Finds each right pixel's candidate of least cost; of equal costs, the smallest candidate.
 
-    Right pixel x is candidate d of left pixel x + d. So the best that it has found so far moves on by one
-    candidate with each left pixel, from 0 to the last, and leaves there. An excluded candidate changes
-    nothing: so a line's last right pixels leave during the slots that follow the line, whatever these are.
-    The state of a lane is its segment's, far end first; the near end takes over from the lane below.
-    Plain numbers are compared within a clock: with one step a candidate's best is wanted in the clock that
-    follows. That clock is all comparison: costs come to registers near it first. Fractions take more
-    (`RightFractions`).
+    Right pixel x is candidate d of left pixel x + d. So its best candidate so far moves on by one candidate
+    with each left pixel, from 0 to the last, and leaves there. An excluded candidate changes nothing, so a
+    line's last right pixels leave during the slots that follow the line, whatever these are. A lane holds
+    the state of its segment, far end first; the near end takes over from the lane below.
+    Plain numbers are compared within one clock: with one step, a candidate's best is needed in the very next
+    clock. The comparison fills that clock, so costs first come to registers near it. Fractions take more
+    clocks (`RightFractions`).
 
     Parameters
     ----------
@@ -24,9 +24,9 @@ class RightWinner(wiring.Component):
 
     Members
     -------
-    valid, first : a step is taken, and it is its slot's first; never one without the other.
+    valid, first : a step is taken; it is its slot's first. A ``first`` never comes without ``valid``.
     last : it is its slot's last.
-    step : its number.
+    step : the step's number.
     costs, excluded : of each lane's candidate.
     winner : of the right pixel that lies ``disparities - 1`` slots back, `latency` clocks after the first
         step, held until the next.
@@ -53,11 +53,11 @@ class RightWinner(wiring.Component):
         m.d.sync += [valid.eq(self.valid), first.eq(self.first), step.eq(self.step)]
         m.d.sync += [costs.eq(self.costs), excluded.eq(self.excluded)]
         best = data.StructLayout({"cost": self._cost, "index": range(self._lanes * steps)})
-        # Nothing was found before the first candidate: any cost is less.
+        # Before the first candidate nothing was found, and any cost is less.
         none = (1 << self._cost.size) - 1
         entering: Value = Const(none, best.size)
         for lane in range(self._lanes):
-            # The best before a step's candidate: a register, so that no choice is made before it is compared.
+            # The best before a step's candidate: a register, so nothing has to be chosen before comparing.
             before = Signal(best, name=f"before_{lane}", reset_less=True)
             now = Signal(best, name=f"now_{lane}")
             better = Signal(name=f"better_{lane}")
@@ -73,8 +73,8 @@ class RightWinner(wiring.Component):
                     m.d.sync += found.eq(now)
                 entering = found
                 continue
-            # What steps found until it is their place's turn again, and what the far end was: this slot, and
-            # where it is wanted later than in the first step, the slot before.
+            # What steps found, until their place's turn comes again; and what the far end was in this slot
+            # and, where that is wanted later than in the first step, in the slot before.
             waits = [Signal(best, name=f"waits_{lane}_{k}", reset_less=True) for k in range(steps - 2)]
             far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(min(steps - 1, 2))]
             line = [now, *waits]

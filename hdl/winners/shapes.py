@@ -1,4 +1,4 @@
-"""How wide costs are behind the lanes: every one is ``num / den``."""
+"""How wide costs are behind the lanes: each is ``num / den``."""
 
 from amaranth.hdl import Shape, unsigned
 from amaranth.lib import data
@@ -6,12 +6,12 @@ from amaranth.lib.wiring import In, Member, Out
 
 
 def cost_bits(maximum: int) -> int:
-    """Bits of a sum and of one that is larger than any, all ones: it stands for none."""
+    """Bits of a sum, with room for a larger value than any, all ones, which stands for none."""
     return (maximum + 1).bit_length()
 
 
 def sum_layout(maximum: int) -> data.StructLayout:
-    """Of a sum up to `maximum`: a plain number has no ``den``, which then is 1."""
+    """Layout of a sum up to `maximum`: a plain number has no ``den``, which then counts as 1."""
     return data.StructLayout({"num": unsigned(cost_bits(maximum)), "den": unsigned(0)})
 
 
@@ -21,7 +21,7 @@ def is_fraction(cost: data.StructLayout) -> bool:
 
 
 def right_winner_members(lanes: int, steps: int, cost: data.StructLayout) -> dict[str, Member]:
-    """The members of what finds the right view's winner: `RightWinner` says what they mean."""
+    """The members of a component that finds the right view's winner; `RightWinner` says what they mean."""
     return {
         "valid": In(1),
         "first": In(1),

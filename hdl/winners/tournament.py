@@ -13,7 +13,7 @@ def tournament(m: Module, candidates: Sequence[data.View]) -> data.View:
     """The best of ``candidates``, `tournament_latency` clocks later; on a tie, the one with the smallest
     index.
 
-    Unlike in `ArgminTree`, the indices come with the candidates, and excluded ones need not be the last.
+    Unlike in `ArgminTree`, the indices come with the candidates, and excluded ones need not come last.
     """
     level = list(candidates)
     layout = level[0].shape()

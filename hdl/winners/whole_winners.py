@@ -1,4 +1,4 @@
-"""Costs in, results out: winners of both views, what lies beside the left one, and whether both agree."""
+"""Costs in, results out: both views' winners, the costs beside the left one, and whether the views agree."""
 
 from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -25,14 +25,14 @@ from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
 
 FAR = 2
-"""Clocks of the way from the credit to the slots and of what begins back."""
+"""Clocks that credit takes to reach the slots and word of a beginning takes to come back."""
 
 KEPT_TOGETHER = 8
 """Lanes whose costs wait in a memory of their own, with a counter near them."""
 
 
 class WholeWinners(wiring.Component):
-    """Finds each pixel's result among the costs that come step by step; back-pressure reaches `credit`.
+    """Finds each pixel's result among costs that come step by step; back-pressure reaches `credit`.
 
     Fractions are compared as they are; they become numbers where fractions of a pixel and margins need them.
 
@@ -43,7 +43,7 @@ class WholeWinners(wiring.Component):
 
     Members
     -------
-    The ports of `winner_ports` with the tags of `WholeCosts`. And
+    The ports of `winner_ports` with the tags of `WholeCosts`; and
     tolerance : of the check, `Post.tolerance` unless it is driven. It may change between frames.
     o : a stream of results, `post_layout`.
     """
@@ -72,9 +72,9 @@ class WholeWinners(wiring.Component):
         best = candidate_layout(num, den, config.disparities)
         m.submodules.sequence = sequence = ArgminSequence(best, steps)
         found_time = tree.latency + sequence.latency
-        again = found_time + steps  # from a step to when it is looked at again
+        again = found_time + steps  # from a step until it is looked at again
         m.submodules.neighbours = beside = Neighbours(lanes, steps, cost, runner_up=post.confidence)
-        # Clocks that it takes to make numbers of costs.
+        # Clocks that it takes to turn costs into numbers.
         numbers = number_latency(*config.number_range) if is_fraction(cost) else 0
         late = again + beside.latency + numbers
         judged = late + (Sixteenths.latency if post.fraction_bits else Confidence.latency)
@@ -106,7 +106,7 @@ class WholeWinners(wiring.Component):
             ]
 
         # All costs again, beside the winner.
-        # Distributed RAM, however short: of registers there would be as many as in all sums of the lanes.
+        # In distributed RAM, however short: registers would be as many as in all the lanes' sums together.
         for base in range(0, lanes, KEPT_TOGETHER):
             part = range(base, min(base + KEPT_TOGETHER, lanes))
             everything = Cat(Cat(self.costs[k], self.excluded[k]) for k in part)
@@ -192,7 +192,7 @@ class WholeWinners(wiring.Component):
             done, emits, agrees, result = check.done, check.o_emits, check.agrees, check.o
             latency += LeftRight.latency
 
-        # The slots are far from here: credit and what begins take a clock each for their way.
+        # The slots are far from here: credit and ``begins`` take a clock each on their way.
         credit = Signal()
         begun = Signal()
         unseen = -(-FAR // steps)
@@ -217,7 +217,7 @@ class WholeWinners(wiring.Component):
         return m
 
     def _late(self, m: Module, value: Value, clocks: int, name: str) -> Value:
-        """``value`` after so many clocks, in memory where they are many."""
+        """``value`` after so many clocks, in memory if they are many."""
         m.submodules[f"late_{name}"] = late = Delay(len(value), clocks)
         m.d.comb += [late.en.eq(1), late.i.eq(value)]
         return late.o

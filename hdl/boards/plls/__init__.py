@@ -1,4 +1,4 @@
-"""PLLs of the families: the settings that make one clock from another, or why they cannot."""
+"""PLLs of the families: the settings that make one clock from another, or why there are none."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ PLLS: dict[str, Callable[[Board, Signal, Signal, Signal], Instance]] = {
 
 
 def pll(board: Board, oscillator: Signal, clock: Signal, locked: Signal) -> Instance:
-    """The PLL of the board's part: `oscillator` becomes `clock`, of ``board.core_hz``, good when `locked`.
+    """The PLL of the board's part makes `clock`, of ``board.core_hz``, from `oscillator`; good when `locked`.
 
     Raises `ConfigError` if the part cannot make that clock.
     """

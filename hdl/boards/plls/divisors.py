@@ -1,4 +1,4 @@
-"""What all PLLs share: a rational number of cycles, and the first setting that makes it."""
+"""What all PLLs share: exact ratios of two clocks, and the first setting that makes one."""
 
 from collections.abc import Iterator
 from typing import NamedTuple

@@ -8,7 +8,7 @@ from softdepth.hdl.boards.plls.divisors import MHZ, Divisors, first
 from softdepth.spec.boards import Board
 
 FILTERS = ((17, 1), (26, 2), (44, 3), (66, 4), (101, 5), (134, 6))
-"""The loop filter by the phase detector's rate: below so many MHz."""
+"""The loop filter for each rate of the phase detector: a rate in MHz, and the filter for rates below it."""
 
 
 def ice40_divisors(clock_hz: int, core_hz: int) -> Divisors:

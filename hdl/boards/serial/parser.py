@@ -14,17 +14,17 @@ MAX_BODY = (1 << 16) - 1
 class PacketParser(wiring.Component):
     """Finds packets, as `softdepth.spec.protocol` frames them, among bytes.
 
-    A flag ends a packet and begins the next, so that after any garbage the first whole packet is found.
-    The payload is given as it comes, before the checksum is known: it may be stored, but not used
+    A flag ends one packet and begins the next, so the first whole packet after any garbage is found.
+    The payload is passed on as it comes, before the checksum is known: it may be stored, but not used
     until ``good``.
 
     Members
     -------
     valid, data, broken : a byte from the receiver; ``broken`` spoils its packet.
-    version, type, sequence, length : the header; complete when the payload begins, and until the next
+    version, type, sequence, length : the header; complete from the start of the payload until the next
         packet's first byte.
-    payload_valid, payload, index : a byte of the payload, and its place there.
-    good, bad : a packet has ended, in this clock only. Nothing between two flags is no packet.
+    payload_valid, payload, index : a byte of the payload, and its place in it.
+    good, bad : a packet has ended, in this clock only. Two flags with nothing between them are no packet.
     """
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ class PacketParser(wiring.Component):
         byte = Signal(8)
         header = Signal(8 * HEADER.size)
         ended = count != 0
-        # A byte comes every few clocks at most, so that what is known of those before may take one.
+        # Bytes are at least a few clocks apart, so what is known of earlier ones may come a clock late.
         whole = Signal()
         m.d.sync += whole.eq(
             (count == self.length + (HEADER.size + CRC_BYTES)) & crc.match_detected & ~spoilt & ~escaped

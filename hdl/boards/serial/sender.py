@@ -14,10 +14,10 @@ class PacketSender(wiring.Component):
 
     Members
     -------
-    start : begin a packet; ``type``, ``sequence`` and ``length`` are as wanted from now until `busy` falls.
+    start : begin a packet; ``type``, ``sequence`` and ``length`` must hold from now until `busy` falls.
     busy : a packet is under way.
     index, data : which byte of the payload comes next, and that byte. It is taken when the one before has
-        been sent, so that it may follow its index by as many clocks as a byte takes.
+        been sent, so it may follow its index by as many clocks as a byte takes.
     o : stream of bytes for the line.
     """
 

@@ -8,7 +8,7 @@ from tests.support.claims import Claim
 
 PART = "proofs"
 DOCUMENT = Path("docs/verification.md")
-PROOFS = ("tests/**/test_*proofs.py", "tests/**/test_ready_paths.py")
+PROOFS = ("tests/**/test_*proofs.py", "tests/**/test_ready_paths.py", "tests/**/test_stream_ends.py")
 
 
 @dataclass

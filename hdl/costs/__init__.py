@@ -1,1 +1,1 @@
-"""Lanes: criteria, then one cost a candidate."""
+"""Lanes: criteria, then one cost per candidate."""

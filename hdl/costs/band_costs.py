@@ -1,4 +1,4 @@
-"""Pixels in, the costs of all candidates out: the room of criteria that have a border band."""
+"""Pixels in, the costs of all candidates out, for criteria that have a border band."""
 
 from amaranth.hdl import Cat, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -19,7 +19,7 @@ from softdepth.spec.config import Config
 
 
 def band_tags(config: Config) -> data.StructLayout:
-    """What the tags of a result say: that it leaves in this clock, and the sequencer's `tags_layout`."""
+    """The tags of a result: whether it leaves in this clock, and the sequencer's `tags_layout`."""
     return data.StructLayout({"emits": 1, "result": tags_layout()})
 
 
@@ -31,7 +31,7 @@ class BandCosts(wiring.Component):
         i > sequencer > line buffer > right columns > lanes > costs
 
     ``steps`` clocks a pixel, without a pause between lines or frames. The pipeline never stalls: a pixel is
-    admitted if there is credit. Pixels whose support leaves the image have results without costs, which
+    admitted if there is credit. Pixels whose support goes beyond the image have results without costs, which
     leave with the steps of other pixels, or on their own.
 
     Members
@@ -68,7 +68,7 @@ class BandCosts(wiring.Component):
             self.tags.result.eq(sequencer.tags),
         ]
 
-        # Clocks are counted from the one in which the sequencer takes the pixel; its outputs come at 1.
+        # Clocks are counted from the one in which the sequencer takes a pixel; its outputs come at 1.
         column_time, cost_time = LineBuffer.latency, self.latency
         # Control bits are reset; the data that they qualify is not.
         occurs: dict[str, list[Signal]] = {}
@@ -88,7 +88,7 @@ class BandCosts(wiring.Component):
             columns.column.eq(right),
         ]
 
-        # Where the step is in the line, counting all candidates, as early as the lanes look it up.
+        # The step's place in the line, counting all candidates, as early as the lanes look it up.
         looked_up = column_time - self._lanes[0].look_ahead
         place = Signal(range(config.places), reset_less=True)
         with m.If(occurs["valid"][looked_up - 1]):
@@ -143,10 +143,10 @@ class BandCosts(wiring.Component):
         return left, right
 
     def _moved(self, m: Module, load: Signal, item: data.View) -> tuple[Value, Value]:
-        """Left and right pixel, one of them late by `Config.min_disparity`: candidates then begin at 0.
+        """Left and right pixel, one of them delayed by `Config.min_disparity`: candidates then begin at 0.
 
-        The late one's columns are those of the line, except for the first ones, which are those of the line
-        before. Pixels that see them have no result.
+        The delayed view's columns are those of the line, except for the first ones, which are those of the
+        line before. Pixels that see these have no result.
         """
         shift = self._config.min_disparity
         m.submodules.late = late = Delay(self._config.pixel.size, abs(shift))

@@ -9,11 +9,11 @@ from softdepth.spec.config import Config
 
 
 def in_border(m: Module, config: Config, plan: Plan, slots: Slots) -> Value:
-    """Whether the pixel that a slot judges lies in the border band, in the clocks of the slot."""
+    """Whether the pixel judged by a slot lies in the border band, during the slot's clocks."""
     slot = slots.slot
     if config.whole_frame:
         return Const(0, 1)
-    # Of the rows and columns that it sees, the farthest: the slot's own pixel is ``below`` rows below it, and
+    # The farthest of the rows and columns that it sees: the slot's own pixel is ``below`` rows below it, and
     # ``right`` columns beside it.
     low, high = slot.rows[plan.below - config.reach_rows], slot.rows[plan.below + config.reach_rows]
     m.submodules.seen = seen = Delay(1, plan.right - config.reach_right)

@@ -1,4 +1,4 @@
-"""What the costs pass to the winners: the only interface between the two rooms."""
+"""What the costs pass to the winners: the only interface between the two."""
 
 from amaranth.hdl import Module, ShapeLike, Value
 from amaranth.lib import data, wiring
@@ -9,17 +9,17 @@ FORTH = ("begins", "valid", "first", "last", "step", "costs", "excluded", "tags"
 
 
 def cost_ports(*, lanes: int, steps: int, cost: ShapeLike, tags: ShapeLike) -> dict[str, Member]:
-    """Ports of a component that judges candidates, ``lanes`` a clock; winners have them the other way round.
+    """Ports of a component that judges ``lanes`` candidates a clock; winners have them the other way round.
 
-    Nothing here can be held back: judging begins only when there is ``credit``.
+    Nothing here can be held back: a pixel is begun only when there is ``credit``.
 
     Members
     -------
     credit : another result may be begun.
-    begins : one is, a fixed time before its first costs (``latency`` of the costs).
-    valid, first, last, step : a step's costs are there, and its position within the pixel.
+    begins : a result is begun, a fixed time before its first costs (``latency`` of the costs).
+    valid, first, last, step : a step's costs are there, and the step's position within the pixel.
     costs, excluded : of each lane's candidate, `right_columns.candidate`.
-    tags : what is known of the result beside its costs, in the same clock or a fixed time before
+    tags : what else is known about the result, in the same clock or a fixed time before
         (``tags_ahead`` of the costs).
     """
     return {

@@ -1,4 +1,4 @@
-"""Column sums of several lanes, between their differences and their sums along the row."""
+"""Column sums of several lanes, between the lanes' differences and their sums along the row."""
 
 from collections.abc import Sequence
 
@@ -28,11 +28,11 @@ def join_columns(
     outside: Value,
     summed: Value,
 ) -> None:
-    """Sum the lanes' columns, those that run on in block RAM, and let sums wait that leave the row's.
+    """Sum the lanes' columns, running sums in block RAM; delay the sums that are to leave those of the row.
 
     Parameters
     ----------
-    valid, place, begins, outside : as of `RunningSums`.
+    valid, place, begins, outside : as in `RunningSums`.
     summed : a step's column sums are there.
     """
     for base in range(0, len(sums), GROUP):

@@ -24,7 +24,7 @@ from softdepth.spec.criteria import (
 from softdepth.spec.registry import Registry
 
 LIKE_BITS = 8
-"""Bits of the values in which a configuration says which colours are alike."""
+"""Bits of the values by which a configuration says which colours are alike."""
 
 
 @dataclass(frozen=True)
@@ -35,16 +35,16 @@ class Comparison:
     -------
     descriptor : what it compares.
     rows : rows that are summed.
-    reach : columns to either side of the window's centre.
+    reach : columns on either side of the window's centre.
     pixel_maximum : the largest difference of a pixel.
-    block, parameters : what compares two descriptors, with the ports of `Hamming`.
+    block, parameters : the component that compares two descriptors, with the ports of `Hamming`.
     dx : columns from the pixel to the window's centre, to the right.
-    spacing, taps, like : with a support: its columns, and which colours count; ``taps`` is 0 without.
-    own_shift : bits by which the value is more than the sum.
+    spacing, taps, like : of a support: its columns, and which colours count; ``taps`` is 0 without one.
+    own_shift : bits by which the value is shifted above the sum.
     limit : of its differences, if a register may set it (`softdepth.hdl.thresholds`).
     running : sums down the columns are kept; one row enters and one leaves.
-    lags : rows above the newest of those that are compared, ascending: of a running sum the one that enters
-        and the one that leaves, else all that are summed; by `plan`.
+    lags : how far above the newest row those lie that are compared, ascending: for a running sum the one that
+        enters and the one that leaves, else all that are summed; set by `plan`.
     """
 
     descriptor: Descriptor
@@ -69,7 +69,7 @@ class Comparison:
 
     @property
     def shape(self) -> Shape:
-        """The descriptor's."""
+        """The descriptor's shape."""
         return self.descriptor.shape
 
     @property
@@ -79,12 +79,12 @@ class Comparison:
 
     @property
     def ahead(self) -> int:
-        """Columns to the right of the pixel that its value depends on; negative where it has none there."""
+        """Columns to the right of the pixel on which its value depends; negative if there are none."""
         return self.reach + self.dx
 
     @property
     def column(self) -> tuple[Any, ...]:
-        """What its columns are made of; criteria with the same share their sums."""
+        """What its columns are made of; criteria that have this in common share their sums."""
         told = self.limit is not None
         return self.field, self.lags, self.running, self.block, self.parameters, told
 
@@ -94,7 +94,7 @@ class Comparison:
 
 
 COMPARISONS: Registry[Callable[[Any, PixelFormat], Comparison]] = Registry("criterion's comparison")
-"""Of each kind that is summed down columns: from the criterion, and what pixels there are."""
+"""For each kind that is summed down columns: its comparison, from the criterion and the pixel format."""
 
 
 def _census(criterion: Census, pixel: PixelFormat) -> Comparison:
@@ -109,7 +109,7 @@ def _census(criterion: Census, pixel: PixelFormat) -> Comparison:
         taps=taps,
         spacing=spacing,
         like=criterion.like,
-        own_shift=RECIPROCAL_BITS - SUPPORT_SHIFT,  # a column alone counts as a mean of one
+        own_shift=RECIPROCAL_BITS - SUPPORT_SHIFT,  # a column by itself counts as a mean of one
         running=criterion.running_sums,
     )
 
@@ -138,7 +138,7 @@ def _of_gradient(cap: int, truncation: int, neutral: int, **window: Any) -> Comp
 
 
 def _sad(criterion: Sad, pixel: PixelFormat) -> Comparison:
-    """No result depends on what lies outside, nor on candidates without a partner."""
+    """No result depends on what lies outside the frame, nor on candidates without a partner."""
     window: dict[str, Any] = {"rows": criterion.window, "reach": criterion.radius, "dx": criterion.dx}
     if criterion.source == "gradient":
         return _of_gradient(GRADIENT_CAP, 2 * GRADIENT_CAP, 0, **window)
@@ -157,7 +157,7 @@ COMPARISONS.register("sad", _sad)
 
 
 FEW_COLUMNS = 5
-"""Along a row, up to this many columns are added anew; a running sum takes two additions and a memory."""
+"""Up to this many columns along a row are added anew; a running sum takes two additions and a memory."""
 
 
 @dataclass(frozen=True)
@@ -170,13 +170,13 @@ class Plan:
     history: int
 
     def row_runs(self, comparison: Comparison) -> bool:
-        """Whether a comparison's sum along the row takes a column in and leaves one out."""
+        """Whether a comparison's sum along the row is a running one: it adds a column and drops one."""
         columns = 2 * comparison.reach + 1
         return not comparison.taps and columns > FEW_COLUMNS and self.right == comparison.ahead
 
     @property
     def rows(self) -> dict[str, tuple[int, ...]]:
-        """For each descriptor, how many rows above the newest it is wanted, ascending."""
+        """For each descriptor, how far above the newest row it is wanted, ascending."""
         found: dict[str, set[int]] = {}
         for c in self.comparisons:
             found.setdefault(c.field, set()).update(c.lags)
@@ -184,12 +184,12 @@ class Plan:
 
     @property
     def descriptors(self) -> dict[str, Descriptor]:
-        """All that are compared, by name."""
+        """All descriptors that are compared, by name."""
         return {c.field: c.descriptor for c in self.comparisons}
 
     @property
     def columns(self) -> tuple[Comparison, ...]:
-        """The comparisons whose columns are summed: of those that share them, the first."""
+        """The comparisons whose columns are summed: the first of those that share their columns."""
         return tuple({c.column: c for c in reversed(self.comparisons)}[key] for key in self._keys)
 
     @property
@@ -197,17 +197,17 @@ class Plan:
         return list(dict.fromkeys(c.column for c in self.comparisons))
 
     def column_of(self, comparison: Comparison) -> str:
-        """Where its column sums are among those of `columns`."""
+        """Which of `columns` has its column sums."""
         return str(self._keys.index(comparison.column))
 
 
 MINIMUM_RIGHT = 4
-"""The least number of slots that a line has beyond its pixels. In shorter lines, running sums would look a
-place up before the row above is done."""
+"""The fewest slots that a line has beyond its pixels. In shorter lines, running sums would look up a
+place before the row above is done with it."""
 
 
 def by_windows(config: Config) -> bool:
-    """Whether a core compares windows of pixels as they are: windows of colours, nothing behind the winners.
+    """Whether a core compares windows of plain pixels: windows of colours, and no stages behind the winners.
 
     Their support has more than one row.
     """

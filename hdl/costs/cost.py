@@ -17,7 +17,7 @@ from softdepth.spec.operators import REGISTRY
 
 
 def fraction_layout(config: Config) -> data.StructLayout:
-    """A candidate's cost ``num / den``; a plain number has no ``den``, which then is 1."""
+    """A candidate's cost ``num / den``; a plain number has no ``den``, which then counts as 1."""
     (low, high), (_, den_high) = config.cost_range
     den = range(den_high + 1) if config.cost == "fuzzy" else unsigned(0)
     return data.StructLayout({"num": range(low, high + 1), "den": den})
@@ -62,7 +62,7 @@ class FuzzyCost(wiring.Component):
 def inference_of(
     config: Config,
 ) -> type[CellInference] | type[CellMeanInference] | type[MeanInference] | type[RuleInference]:
-    """The smallest component that computes what is configured."""
+    """The smallest component that computes the configured inference."""
     match config.operator, config.rules, config.by_cell:
         case "mean", "printed", False:
             return MeanInference

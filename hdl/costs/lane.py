@@ -19,7 +19,7 @@ from softdepth.spec.registry import Registry
 CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's gateware")
 """The component that computes each kind of criterion. All of a kind in a lane share one.
 
-It has the ports of `SadCriteria`. Its ``left`` and ``right`` may have any number of rows of the column, down
+It has the ports of `SadCriteria`. Its ``left`` and ``right`` may have any number of the column's rows, down
 to the newest row in its own support; its ``o`` comes `latency` clocks later, for the pixel
 `Config.window_right` columns before the one that entered. ``coming`` and ``place`` announce a column
 `look_ahead` clocks early, for components that keep something in memory; `look_ahead` defaults to 0.
@@ -39,7 +39,7 @@ class Lane(wiring.Component):
     Members
     -------
     valid : the columns are a step of a pixel.
-    coming, place : those in `look_ahead` clocks are one, and which of the line's steps.
+    coming, place : the columns that come in `look_ahead` clocks are a step; which one of the line's.
     left, right : the columns to compare.
     near : input of the cost, ``criteria_latency`` clocks after the columns.
     o : the candidate's cost, `latency` clocks after the columns.
@@ -99,7 +99,7 @@ class Lane(wiring.Component):
         return m
 
     def _announced(self, m: Module, kind: str) -> list[Any]:
-        """Statements that announce the coming columns to a kind's criteria, as early as they ask for."""
+        """Statements that announce the coming columns to a kind's criteria, as early as these want it."""
         block = self._criteria[kind]
         late = self.look_ahead - getattr(block, "look_ahead", 0)
         coming = travelling(m, self.coming, late, f"{kind}_coming")[-1]

@@ -7,7 +7,7 @@ from softdepth.spec.config import Config
 
 
 def near_lanes(m: Module, config: Config, step: Value) -> list[Signal]:
-    """For each lane, one clock after ``step``: the compensating rule's bound is reached."""
+    """For each lane, one clock after ``step``: whether the compensating rule's bound is reached."""
     near = []
     bound = config.compensation.from_disparity - config.min_disparity
     for lane in range(config.lanes):

@@ -14,7 +14,7 @@ def costs_of(config: Config, compared: data.StructLayout) -> BandCosts | WholeCo
 
     Parameters
     ----------
-    compared : what the front gives of each pixel.
+    compared : what the front gives for each pixel.
     """
     if by_windows(config):
         return BandCosts(config)

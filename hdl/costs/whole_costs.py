@@ -1,4 +1,4 @@
-"""Descriptors in, the costs of all candidates out: the room of criteria that are summed down columns."""
+"""Descriptors in, the costs of all candidates out, for criteria that are summed down columns."""
 
 from amaranth.hdl import Cat, Const, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
@@ -31,8 +31,8 @@ from softdepth.hdl.post.stage import delayed
 from softdepth.spec.config import Config
 
 COLUMN_TIME = 2
-"""Clocks from a slot's first step to its columns, which come to all lanes from afar; and a running sum is
-looked up before its columns are compared."""
+"""Clocks from a slot's first step to its columns, which have a long way to all the lanes; besides, a running
+sum is looked up before its columns are compared."""
 
 DEEP_RING = 3
 """From this many places on, a lane's ring of right columns is distributed RAM, because flip-flops run out
@@ -40,8 +40,8 @@ first."""
 
 
 def tags_layout(config: Config) -> data.StructLayout:
-    """About the pixel that a slot judges: whether there is one, whether it is in the border band and has all
-    its candidates; and its colour."""
+    """About the pixel that a slot judges: whether there is one, whether it is in the border band, whether it
+    has all its candidates; and its colour."""
     return data.StructLayout(
         {
             "emits": 1,
@@ -60,11 +60,11 @@ class WholeCosts(wiring.Component):
 
         i > slots > right columns > differences > running sums > supports, boxes > sum or inference > costs
 
-    A slot of ``steps`` clocks for each pixel, and more beyond the ends of lines and frames (`Slots`). What
-    lies outside the frame counts 0, and a candidate without a partner a constant. Where a criterion has a
-    border band, the pixels in it have no candidates, and the others those that have a partner outside of it.
+    A slot of ``steps`` clocks for each pixel, and more slots beyond the ends of lines and frames (`Slots`).
+    What lies outside the frame counts 0, and a candidate without a partner a constant. If a criterion has a
+    border band, pixels in it have no candidates, and others only those whose partner is outside the band.
 
-    Candidates begin at 0: a configuration with others is `from_zero` and sees the views' `Overlap`.
+    Candidates begin at 0: a configuration with others is made `from_zero` and sees the views' `Overlap`.
 
     Members
     -------
@@ -114,8 +114,8 @@ class WholeCosts(wiring.Component):
             drain=self._drain,
             first=config.reach_left,
         )
-        # The slots' decision is late in its clock, and does not go on from here to a wide queue's output, as
-        # that is far away: there are places at both ends.
+        # The slots' decision comes late in its clock and must not go on to the output of a wide queue, which
+        # is far away: so there are places at both ends.
         m.submodules.arrived = arrived = ItemQueue(self._descriptors)
         m.submodules.places = places = ItemQueue(self._descriptors)
         wiring.connect(m, wiring.flipped(self.i), arrived.i)
@@ -159,7 +159,7 @@ class WholeCosts(wiring.Component):
             ring.column.eq(right),
         ]
 
-        # Which candidates have no partner, and later which are out.
+        # Which candidates have no partner, and later, which are excluded.
         m.submodules.absent = absent = Exclusion(config)
         before = column_time + 1 - Exclusion.latency
         m.d.comb += [
@@ -193,7 +193,7 @@ class WholeCosts(wiring.Component):
         centre = self._centre(m, colour, first[column_time])
         rows_inside = Signal(inside_layout(plan_))
         for running, lag in sorted({(c.running, lag) for c in plan_.columns for lag in c.lags}):
-            # Beyond the frame's columns a running sum itself is held back, and not its differences.
+            # Beyond the frame's columns it is the running sum that is held back, not its differences.
             within = rows_of[lag] if running else rows_of[lag] & column_inside
             m.d.comb += rows_inside[inside_of(lag, running)].eq(within)
         differences = []
@@ -256,7 +256,7 @@ class WholeCosts(wiring.Component):
         return m
 
     def _weights(self, m: Module, colour: Value, enters: Value, inside: Value, supports: data.View) -> None:
-        """The supports of the pixel that is judged, when the newest of its column sums is there."""
+        """The supports of the pixel that is judged, in the clock of the newest of its column sums."""
         for k, c in enumerate(self._plan.comparisons):
             if not c.taps:
                 continue
@@ -276,7 +276,7 @@ class WholeCosts(wiring.Component):
             ]
 
     def _centre(self, m: Module, colour: Value, enters: Value) -> Value:
-        """The colour of the pixel that is judged, a clock after its slot's columns, through all steps."""
+        """The colour of the pixel that is judged, from a clock after its slot's columns, for all steps."""
         m.submodules.colours = colours = Delay(self._colour_bits, self._plan.right)
         centre = Signal(self._colour_bits, name="centre", reset_less=True)
         m.d.comb += [colours.en.eq(enters), colours.i.eq(colour)]

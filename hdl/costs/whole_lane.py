@@ -17,27 +17,27 @@ from softdepth.spec.config import Config
 
 
 def row_of(field: str, lag: int) -> str:
-    """The member of `rows_layout` for a descriptor of the row so far above the newest."""
+    """The member of `rows_layout` for a descriptor of the row that lies `lag` above the newest."""
     return f"{field}_{lag}"
 
 
 def rows_layout(plan: Plan) -> data.StructLayout:
-    """Of each criterion the descriptors of all rows that are compared, each once."""
+    """Each criterion's descriptors of all rows that are compared, each once."""
     return data.StructLayout({row_of(c.field, lag): c.shape for c in plan.comparisons for lag in c.lags})
 
 
 def inside_of(lag: int, running: bool) -> str:
-    """The member of `inside_layout` for differences of this row, in sums that run on or in others."""
+    """The member of `inside_layout` for differences of this row, in running sums or in others."""
     return f"{'running' if running else 'anew'}_{lag}"
 
 
 def inside_layout(plan: Plan) -> data.StructLayout:
-    """Of each row that is compared, whether it lies in the frame: each bit once, as columns share rows."""
+    """For each row that is compared, whether it lies in the frame: each bit once, as columns share rows."""
     return data.StructLayout({inside_of(lag, c.running): 1 for c in plan.columns for lag in c.lags})
 
 
 def pixels_layout(plan: Plan) -> data.StructLayout:
-    """Of each the differences of these rows."""
+    """For each of the plan's columns, by number, the differences of its rows."""
     fields = {
         str(k): data.ArrayLayout(unsigned(c.pixel_maximum.bit_length()), len(c.lags))
         for k, c in enumerate(plan.columns)
@@ -46,18 +46,18 @@ def pixels_layout(plan: Plan) -> data.StructLayout:
 
 
 def columns_layout(plan: Plan) -> data.StructLayout:
-    """Of each its sum."""
+    """For each of the plan's columns, by number, its sum."""
     return data.StructLayout({str(k): range(c.column_maximum + 1) for k, c in enumerate(plan.columns)})
 
 
 def leaving_layout(plan: Plan) -> data.StructLayout:
-    """Of each criterion whose sum along the row runs on, by its number: a column's sum."""
+    """For each criterion with a running sum along the row, by its number: a column's sum."""
     running = {str(k): c for k, c in enumerate(plan.comparisons) if plan.row_runs(c)}
     return data.StructLayout({k: range(c.column_maximum + 1) for k, c in running.items()})
 
 
 def supports_layout(plan: Plan) -> data.StructLayout:
-    """Of each criterion that has a support, by its number: `support_layout`."""
+    """For each criterion with a support, by its number: `support_layout`."""
     taps = {str(k): c.taps for k, c in enumerate(plan.comparisons)}
     return data.StructLayout({k: support_layout(count) for k, count in taps.items() if count})
 
@@ -112,9 +112,9 @@ class LaneSums(wiring.Component):
     Members
     -------
     valid, columns : a step's column sums.
-    leaving, begins, full : in the same clock, for sums along the row that run on, as `RowSum` has them.
-    supports : in the same clock, of the pixel that is judged, ``plan.right`` columns to the left.
-    near : of the inference, `criteria_latency` clocks later.
+    leaving, begins, full : in the same clock, for running sums along the row, as in `RowSum`.
+    supports : in the same clock, for the pixel that is judged, ``plan.right`` columns to the left.
+    near : for the inference, `criteria_latency` clocks later.
     o : its cost, ``num / den``, `latency` clocks later.
     """
 
@@ -144,7 +144,7 @@ class LaneSums(wiring.Component):
         )
 
     def _part(self, c: Comparison) -> tuple[SupportMean | RowBox | RowSum, int, int]:
-        """What makes its columns a criterion, how many slots they wait, and the bits to shift it by."""
+        """The part that makes its columns a criterion, the slots they wait, and the bits to shift it by."""
         steps, wait = self._config.steps, self._plan.right - c.ahead
         if c.taps:
             return SupportMean(c.column_maximum, c.taps, c.spacing, steps), wait, 0

@@ -9,28 +9,28 @@ REGISTER_LIMIT = 16
 """Delays up to this depth are registers; longer ones are a ring in memory."""
 
 DEEP, FEW = 16, 4
-"""Places of distributed RAM, and how many more are registers rather than memory of twice the depth."""
+"""Places of a distributed RAM, and how many more are made registers rather than memory twice as deep."""
 
 SHORT = 2
-"""The depth up to which registers are no more than what reads a distributed RAM."""
+"""The depth up to which registers take no more than what reads a distributed RAM."""
 
 CHAINED = 4 * DEEP
-"""Delays up to this depth are a chain of distributed RAMs where registers are not to be had; longer ones may
+"""Delays up to this depth are a chain of distributed RAMs where no registers are to be used; longer ones may
 be block RAM."""
 
 
 class Delay(wiring.Component):
     """Delay a value by ``depth`` enabled clocks.
 
-    At a clock with ``en`` high, ``o`` shows what ``i`` was ``depth`` enabled clocks before. Short
-    delays are shift registers, long ones a memory ring (one write and one read port), so that the
-    cost stays flat when few lanes serve many disparities. The contents are not reset.
+    In a clock with ``en`` high, ``o`` shows what ``i`` was ``depth`` enabled clocks before. Short
+    delays are shift registers, long ones a memory ring (one write and one read port), which keeps
+    the cost flat when few lanes serve many disparities. The contents are not reset.
 
     Parameters
     ----------
     shape : shape of the value.
     depth : enabled clocks; 0 is a wire.
-    registers : whether it is registers, whatever the depth: where flip-flops are to be had and lookup tables
+    registers : whether to use registers, whatever the depth: where flip-flops are plentiful and lookup tables
         are not, or the reverse.
     """
 
@@ -58,7 +58,7 @@ class Delay(wiring.Component):
 
         beyond = self._depth % DEEP
         if self._chained:
-            # Memory of twice the depth would take as many lookup tables, and multiplexers.
+            # Memory twice as deep would take as many lookup tables, and multiplexers as well.
             first = Delay(self._shape, DEEP, registers=False)
             then = Delay(self._shape, self._depth - DEEP, registers=self._depth - DEEP <= SHORT)
         elif self._depth > DEEP and beyond and beyond <= FEW:
@@ -80,7 +80,7 @@ class Delay(wiring.Component):
         m.submodules.ring = ring = Memory(shape=self._shape, depth=self._depth, init=[])
         write = ring.write_port()
         read = ring.read_port()
-        # The word that the next enabled clock takes away must be there when it comes.
+        # The word that the next enabled clock takes must be there when that clock comes.
         written = Signal(range(self._depth))
         shown = Signal(range(self._depth), init=1 if self._in_ram else 0)
         m.d.comb += [
@@ -92,7 +92,7 @@ class Delay(wiring.Component):
         ]
         if self._in_ram:
             # Nothing stands before a distributed RAM, whose word goes to registers in the same clock. Places
-            # are counted apart from where they are read by many, and where the ring closes is known before.
+            # are counted apart from the address that many read, and where the ring closes is known early.
             place = Signal(range(self._depth), init=2 % self._depth)
             closes = Signal(init=2 % self._depth == self._depth - 1)
             m.d.comb += read.en.eq(self.en)
@@ -104,7 +104,7 @@ class Delay(wiring.Component):
                     closes.eq(place == self._depth - 2),
                 ]
         else:
-            # Block RAM reads in every clock: to pause it takes registers and multiplexers that hold its word.
+            # Block RAM reads in every clock: pausing it takes registers and multiplexers that hold its word.
             following = Mux(written == self._depth - 1, 0, written + 1)
             m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
             m.d.sync += written.eq(shown)

@@ -1,4 +1,4 @@
-"""A memory of wide words that take several clocks to come and to go, and so fewer block RAMs."""
+"""A memory of wide words that take several clocks to read and to write, and so fewer block RAMs."""
 
 from amaranth.hdl import Cat, Const, Module, Mux, ShapeLike, Signal, Value, unsigned
 from amaranth.lib import wiring
@@ -12,28 +12,28 @@ MOST_CLOCKS = 2
 
 
 def clocks_of(steps: int) -> int:
-    """Of a memory in a core that takes so many clocks a pixel."""
+    """The ``clocks`` of a memory in a core that takes ``steps`` clocks a pixel."""
     return 1 << min(steps, MOST_CLOCKS).bit_length() - 1
 
 
 class FoldedMemory(wiring.Component):
-    """One write and one read port for words of which one comes every ``clocks`` clocks at most.
+    """One write and one read port for words that come at most one every ``clocks`` clocks.
 
-    A word lies in as many parts, one behind the other: the memory is deeper and narrower, of which a part's
-    blocks waste less. 1280 words of 110 bits take ten blocks of 18 kbit, and in halves nine. Addresses
-    and blocks' outputs are registered. A word must not be read until it is written: that takes ``clocks``
-    clocks from the one after ``write``.
+    A word lies in as many parts, one behind the other: the memory is deeper and narrower, and block RAM
+    wastes less on that shape. 1280 words of 110 bits take ten blocks of 18 kbit, and nine in halves.
+    Addresses and the blocks' outputs are registered. A word must not be read until it is written, which
+    takes ``clocks`` clocks from the one after ``write``.
 
     Parameters
     ----------
     shape : of a word.
     depth : words.
-    clocks : 1, 2, 4, ... from a word to the next, at least.
+    clocks : the fewest from one word to the next: 1, 2, 4, ...
 
     Members
     -------
     read, read_at, data : ``data`` is the word at ``read_at``, `latency` clocks after ``read``, for one clock.
-    write, write_at, written : a word to be stored; it is to be held for the ``clocks`` clocks that follow.
+    write, write_at, written : a word to be stored; it must be held for the ``clocks`` clocks that follow.
     """
 
     def __init__(self, shape: ShapeLike, depth: int, clocks: int = 1) -> None:
@@ -54,7 +54,7 @@ class FoldedMemory(wiring.Component):
 
     @staticmethod
     def latency_of(clocks: int) -> int:
-        """Clocks from a place to its word."""
+        """Clocks from an address to its word."""
         return clocks + PackedMemory.latency
 
     def elaborate(self, platform: object) -> Module:
@@ -85,7 +85,7 @@ class FoldedMemory(wiring.Component):
         return m
 
     def _addressed(self, m: Module, happens: Signal, place: Signal, name: str) -> tuple[list[Signal], Value]:
-        """Which part's turn is, from the clock after ``happens`` on, and where it lies."""
+        """Which part's turn it is, from the clock after ``happens`` on, and where that part lies."""
         turns = travelling(m, happens, self._clocks, f"{name}s")[1:]
         held = Signal.like(place, name=f"{name}_place", reset_less=True)
         with m.If(happens):

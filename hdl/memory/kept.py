@@ -10,13 +10,13 @@ from softdepth.hdl.memory.long_queue import LongQueue
 class Kept(wiring.Component):
     """Keeps one member of each item that passes, in a queue in block RAM.
 
-    Items pass in the same clock, and wait where the queue is full. An item whose ``end`` is set has no pixel,
-    and no result: nothing is kept of it.
+    Items pass in the same clock, and wait when the queue is full. An item whose ``end`` is set has no pixel
+    and no result, so nothing of it is kept.
 
     Parameters
     ----------
     layout : of the items.
-    member : what is kept of them.
+    member : the one that is kept.
     places : how many items can pass before the first one's result is needed.
 
     Members

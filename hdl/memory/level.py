@@ -1,18 +1,18 @@
-"""How many words a memory holds, with registers for what its two sides ask."""
+"""How many words a memory holds, with a register for each thing that its two sides ask."""
 
 from amaranth.hdl import Module, Signal, Value
 
 
 class Level:
-    """Counts words that come and go; whether there are any, and room for more, are registers of their own.
+    """Counts words that come and go; whether there are any, and room for more, have registers of their own.
 
-    What comes and goes may be known late in a clock: it only chooses, and does not pass through a sum.
+    ``comes`` and ``goes`` may be known late in a clock: they only choose, and pass through no sum.
 
     Parameters
     ----------
     m : the module that this is part of.
     most : words that there is room for.
-    comes, goes : a word does; ``comes`` never without ``room``, ``goes`` never without ``some``.
+    comes, goes : a word comes, or goes; ``comes`` never without ``room``, ``goes`` never without ``some``.
 
     Members
     -------

@@ -4,7 +4,7 @@ from amaranth.hdl import Module, Mux, Signal, Value
 
 
 class LineColumn:
-    """Counts columns, and knows in a register which one is the last: the last of the line before.
+    """Counts columns; a register tells whether the next one is the last, as it was in the line before.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class LineColumn:
         self._second_last = Signal.like(self.x, name="second_last_x")
 
     def step(self, last: Value) -> None:
-        """Where the conditions around hold, column ``x`` is passed, and is its line's ``last`` or not."""
+        """Passes column ``x``, its line's ``last`` or not, where the conditions around this call hold."""
         x = self.x
         self._m.d.sync += [
             x.eq(Mux(last, 0, x + 1)),

@@ -8,7 +8,7 @@ from softdepth.hdl.memory.packed_memory import SEGMENTS
 from softdepth.hdl.memory.packed_queue import PackedQueue
 
 PART = max(SEGMENTS)
-"""Items of a part: none has to choose between block RAMs of different addresses."""
+"""Items of a part, few enough that it need not choose between block RAMs of different addresses."""
 
 
 class LongQueue(wiring.Component):
@@ -21,7 +21,7 @@ class LongQueue(wiring.Component):
 
     Members
     -------
-    i, o : the items, in order, `latency` clocks later where none waits.
+    i, o : the items, in order, `latency` clocks later if none waits.
     """
 
     def __init__(self, shape: data.StructLayout, depth: int) -> None:

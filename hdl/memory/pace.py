@@ -6,20 +6,20 @@ from softdepth.hdl.arithmetic.countdown import Countdown
 
 
 class Pace:
-    """Decides whether there is a slot in this clock, from registers alone except for what is offered.
+    """Decides whether there is a slot in this clock; apart from ``valid``, from registers alone.
 
     Parameters
     ----------
     m : the module that this is part of.
-    clocks : of a slot, at least.
-    credit : a register that says that a slot may begin.
+    clocks : the fewest that a slot takes.
+    credit : a register that says whether a slot may begin.
     valid, ready : of the raster; ``ready`` is driven.
-    beyond : registers too: a slot does not take a pixel, and input is held back.
+    beyond : registers too: a slot takes no pixel, and input is held back.
 
     Members
     -------
     slot : there is one.
-    rest : its clocks after this one.
+    rest : a slot's clocks after this one.
     """
 
     def __init__(

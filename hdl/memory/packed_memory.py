@@ -10,15 +10,15 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.memory.sliced_memory import SLICES
 
 SEGMENTS = {depth: width for depth, width in SLICES.items() if depth <= 2048}
-"""Depths of which a memory is composed, and how wide a block of each is."""
+"""The depths that a memory is composed of, and how wide a block of each depth is."""
 
 
 class PackedMemory(wiring.Component):
-    """One write and one read port, as `SlicedMemory`, for depths that are far from a power of two.
+    """One write and one read port, like `SlicedMemory`, for depths that are far from a power of two.
 
-    The depth is made of segments, each as deep as blocks of one width are: 2560 words of 9 bits are 2048
-    of 9 and 512 that share a block with three others. Blocks have an output register each, and behind these
-    one multiplexer per bit chooses between segments. A word must not be read in the clock in which it is
+    The depth is made of segments, each as deep as blocks of one width: 2560 words of 9 bits are 2048 of 9,
+    and 512 that share a block with three others. Each block has an output register, and behind these one
+    multiplexer per bit chooses between segments. A word must not be read in the clock in which it is
     written.
 
     Parameters
@@ -85,7 +85,7 @@ class PackedMemory(wiring.Component):
         return m
 
     def _within(self, address: Value, base: int, used: int) -> Value:
-        """Whether an address lies in a segment; what is always so is not compared, as readers warn of it."""
+        """Whether an address lies in a segment; what always holds is not compared: readers warn of that."""
         least = address >= base if base else Const(1)
         return least & (address < base + used) if base + used < self._depth else least
 
@@ -97,7 +97,7 @@ def blocks(bits: int, depth: int) -> int:
 
 @cache
 def segments_of(bits: int, depth: int) -> tuple[int, ...]:
-    """The depths of the segments that take fewest blocks, deepest first; of equals, the fewest segments."""
+    """Depths of the segments that take the fewest blocks, deepest first; of equals, the fewest segments."""
     deepest = max(SEGMENTS)
     whole, left = divmod(depth, deepest)
     choices: list[tuple[int, ...]] = []

@@ -13,12 +13,12 @@ from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
 class PackedQueue(wiring.Component):
     """Lets items wait in a `PackedMemory`, whose blocks use their output registers. An item a clock.
 
-    Behind the memory a short queue takes what was read; no path leads from a block to another.
+    Behind the memory, a short queue takes what was read; no path leads from one block to another.
 
     Parameters
     ----------
     shape : of an item.
-    depth : items that wait, at least.
+    depth : items that can wait, at least.
 
     Members
     -------
@@ -26,7 +26,7 @@ class PackedQueue(wiring.Component):
     """
 
     latency = 1 + PackedMemory.latency + QUEUE_LATENCY
-    """Clocks from an item's transfer to when it is there."""
+    """Clocks from an item's transfer to when it is on offer."""
 
     def __init__(self, shape: ShapeLike, depth: int) -> None:
         self._shape, self._depth = shape, depth

@@ -14,22 +14,22 @@ QUEUE_LATENCY = 2
 class ResultQueue(wiring.Component):
     """Lets a pipeline that cannot stop end in a stream that may be held back.
 
-    A place is promised to each result when its computation begins. While places are left, more may
-    begin: so back-pressure reaches the pipeline's input, and nothing inside needs an enable. One result
+    Each result is promised a place when its computation begins. More may begin only while places are
+    left, so back-pressure reaches the pipeline's input, and nothing inside needs an enable. One result
     a clock.
 
     Parameters
     ----------
     shape : of a result.
     latency : clocks from a promise to its `put`.
-    unseen : results that may be begun before their promises are seen here, where the way is far: there is
+    unseen : results that may begin before their promises are seen here, where the way is long: there is
         credit as long as there are places for these too.
 
     Members
     -------
     credit : a result may be promised in this clock.
-    promised : one is.
-    dropped : a result that was promised does not come.
+    promised : a result is promised.
+    dropped : a result that was promised will not come.
     put, result : a promised result arrives.
     o : the results, in order.
     """
@@ -55,8 +55,8 @@ class ResultQueue(wiring.Component):
         taken = Signal()
         m.d.comb += taken.eq(self.o.valid & self.o.ready)
 
-        # The output is a register that takes what comes next whenever it may, so that a full queue has one
-        # place more than its memory. What is written has a place: nobody asks.
+        # The output is a register that takes what comes next whenever it may, so a full queue has one place
+        # more than its memory. Whatever is written was promised a place, so nothing checks for one.
         places = depth - 1
         m.submodules.memory = memory = Memory(shape=len(result), depth=places, init=[])
         write = memory.write_port()
@@ -85,7 +85,7 @@ class ResultQueue(wiring.Component):
             m.d.sync += holding.eq(some)
 
         # Credit is a register. A promise comes late in its clock and takes a place at once; places given back
-        # wait for a clock, so that nothing leads from ``o.ready`` to ``credit`` or through an adder to it.
+        # wait for a clock: so no path leads from ``o.ready`` to ``credit``, nor through an adder to it.
         left = Signal(range(depth + 1), init=depth)
         back = Signal(2)
         counted = Signal.like(left)

@@ -11,24 +11,24 @@ from softdepth.hdl.memory.packed_memory import PackedMemory
 
 
 class RowStack(wiring.Component):
-    """Keeps items of the rows above at every place, gives them, and puts a new one on top.
+    """Keeps the items of the rows above at every place, gives them out, and puts a new one on top.
 
-    With two clocks a place, a word is half as wide and the memory twice as deep, of which a part's blocks
-    waste less: half the bits of every item come in each of the two clocks, and are written back in the same
-    order, moved up by one row. The same place not sooner than four places later. What lay before the frame
-    is stale.
+    With two clocks a place, a word is half as wide and the memory twice as deep, a shape on which block RAM
+    wastes less: half the bits of every item come in each of the two clocks, and are written back in the same
+    order, moved up by one row. The same place may come again four places later at the earliest. Items from
+    before the frame are stale.
 
     Parameters
     ----------
-    groups : bits of an item and how many rows of it are kept, for items of different age.
+    groups : bits of an item, and how many rows of it are kept; several, for items of different age.
     places : of the longest line.
-    clocks : 1 or 2 from a place to the next, at least.
+    clocks : the fewest from one place to the next, 1 or 2.
 
     Members
     -------
     valid, place : a column is looked up.
     items : what is put on top, one item of each group, `ahead` clocks later.
-    o : of each group the items that were there, the newest first, `latency` clocks later, for one clock.
+    o : for each group, the items that were there, newest first, `latency` clocks later, for one clock.
     """
 
     ahead = 4

@@ -6,16 +6,16 @@ from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
 SLICES = {512: 36, 1024: 18, 2048: 9, 4096: 4, 8192: 2}
-"""Bits that one block RAM (18 kbit, as on ECP5 and many others) is wide at each depth."""
+"""The width in bits of one block RAM (18 kbit, as on ECP5 and many others) at each depth."""
 
 
 class SlicedMemory(wiring.Component):
     """One write and one read port. A word must not be read in the clock in which it is written.
 
-    Left alone, synthesis makes a deep memory of shallow blocks and chooses among their outputs. The
-    words are cut into slices narrow enough for a single block to be as deep as the memory instead:
-    a few more blocks, and no logic in the read path. Slices are as equal as may be, so that parts with
-    blocks of another size lose little at their edges.
+    Left alone, synthesis builds a deep memory from shallow blocks and chooses among their outputs. Here,
+    words are cut instead into slices narrow enough for a single block to be as deep as the memory: a few
+    more blocks, and no logic in the read path. Slices are as equal as possible, so parts with blocks of
+    another size lose little at their edges.
 
     Parameters
     ----------

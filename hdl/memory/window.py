@@ -12,32 +12,32 @@ MARKERS = ("sof", "eol", "eof", "damaged")
 
 
 def raster_layout(element: ShapeLike, companion: ShapeLike = 0) -> data.StructLayout:
-    """What a `Window` takes: an element, what goes along with it, and the markers of a sound frame."""
+    """What a `Window` takes: an element, what travels with it, and the markers of a sound frame."""
     return data.StructLayout({"element": element, "companion": companion, **dict.fromkeys(MARKERS, 1)})
 
 
 class Window(wiring.Component):
     """Gives each pixel of a frame the window around it, ``2 rows + 1`` by ``2 columns + 1``.
 
-    What lies outside the frame repeats its edge; `row_inside` and `column_inside` tell those who would
-    rather leave it out. No multiplexer stands in the window: a line's first and last columns enter
-    ``columns`` times more than once, a frame's first row enters into all rows of its column, and below
-    its last the column's newest pixel enters again. So a line takes ``2 columns`` slots more than it has
-    pixels, and a frame ``rows`` lines more, in which the input is held back; nothing waits for the frame
-    that follows.
+    Outside the frame, its edge is repeated; `row_inside` and `column_inside` are for those who would
+    rather leave that out. There is no multiplexer in the window: a line's first and last columns enter
+    ``columns`` more times, a frame's first row enters into all rows of its column, and below its last
+    row the column's newest pixel enters again. So a line takes ``2 columns`` more slots than it has
+    pixels, and a frame ``rows`` more lines, in which the input is held back; nothing waits for the
+    next frame.
 
     Parameters
     ----------
-    element, companion : what is wanted with its neighbours, and what is wanted of the centre alone.
-    rows, columns : reach of the window in all four directions, alike above and below, left and right.
+    element, companion : what is wanted of all the window's pixels, and what is wanted of the centre alone.
+    rows, columns : reach of the window, the same above and below, and the same left and right.
     max_width : pixels of the longest line; the shortest has 4.
-    clocks : of a slot, at least; with more than one, memory is smaller (`FoldedMemory`).
+    clocks : the fewest that a slot takes; with more than one, memory is smaller (`FoldedMemory`).
 
     Members
     -------
     i : a raster.
     credit : a window may be begun in this clock.
-    promised : one is: it leaves `latency` clocks later.
+    promised : a window is begun: it leaves `latency` clocks later.
     valid : a window is there, which cannot be held back.
     window : its elements, rows from above, columns from the left.
     row_inside, column_inside : which rows and columns of it lie inside the frame.
@@ -98,7 +98,7 @@ class Window(wiring.Component):
         with m.If(slot & slots.line_over):
             m.d.sync += frame_rows.eq(Cat(frame_rows[1:], ~below.some & ~slots.ended))
 
-        # When the memory's word is there, when the column, and when the window.
+        # Clocks at which the memory's word is there, the column, and the window.
         found, entered_at, there = self.latency - 2, self.latency - 1, self.latency
         flags = data.StructLayout(
             {

@@ -1,4 +1,4 @@
-"""Goes through a raster in the slots that windows need: each column, and again what lies beyond an edge."""
+"""Goes through a raster in the slots that windows need: each column, and repeats beyond an edge."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
 from amaranth.lib import stream
@@ -11,32 +11,32 @@ from softdepth.hdl.memory.pace import Pace
 class WindowSlots:
     """Says what enters a window in each slot, and which slot completes one.
 
-    A slot begins when a column enters: a new one, or the one before again. A line's first and last columns
-    enter ``columns`` times more than once, and ``rows + after`` lines follow a frame's last. In all of these,
-    input is held back.
+    A slot begins when a column enters: a new one, or the previous one again. A line's first and last columns
+    enter ``columns`` more times, and ``rows + after`` lines follow a frame's last. In all of these extra
+    slots, input is held back.
 
     Parameters
     ----------
     m : the module that this is part of.
     i : a raster, of sound frames; its ``ready`` is driven.
-    credit : a register that says that a window may be begun.
+    credit : a register that says whether a window may be begun.
     rows, columns : reach of the window below its centre, and to either side.
-    after : lines behind the last that has results.
+    after : lines after the last that has results.
     max_width : pixels of the longest line.
-    clocks : of a slot, at least.
+    clocks : the fewest that a slot takes.
 
     Members
     -------
-    slot : there is one; the rest is what it is if there is.
+    slot : there is one; the members below mean something only then.
     new : its column has not entered before.
-    own : it takes a pixel of the frame; ``starts``, the frame's first.
-    below : counts the lines behind the frame, this one included.
+    own : it takes a pixel of the frame; ``starts``: the frame's first.
+    below : counts the lines behind the frame, including this one.
     top : the column is of the frame's first row.
-    inside : of the copies of a line's first column it is the last, of those of its last the first.
+    inside : its column is the last copy of a line's first, or the first copy of its last.
     x : the column's place in the line.
     emits : it completes a window; ``sof``, ``eof``: that of the frame's first pixel, or its last.
     line_over : it is its line's last.
-    ended : of such a slot, the frame's last pixel was taken.
+    ended : in such a slot: the frame's last pixel was taken.
     damage : the frame was mended somewhere up to the pixel before; ``damaged``, or this one.
     """
 
@@ -58,8 +58,8 @@ class WindowSlots:
         self.x = column_at.x
         self.below = below = Countdown(m, rows + after, "below")
         repeats = Countdown(m, columns, "repeats")
-        # Columns of the line up to a whole window, and rows of the frame up to the first that has a result.
-        # Frames are whole: both are set at the end of what came before.
+        # Columns still to come before a whole window, and rows before the first with a result. As frames are
+        # whole, both are set at the end of the line or frame before.
         unfilled = Countdown(m, 2 * columns, "unfilled", init=2 * columns)
         unripe = Countdown(m, rows, "unripe", init=rows)
         after_last = Signal()  # the repeats are of the line's last column
@@ -73,7 +73,7 @@ class WindowSlots:
         self.new, self.own, self.starts = Signal(name="new"), Signal(name="own"), Signal(name="starts")
         self.line_over, self.emits = Signal(name="line_over"), Signal(name="emits")
         first, last, final = Signal(name="first"), Signal(name="last"), Signal(name="final")
-        # Lines end with their last repeat, if they have any; what follows from it is not looked at before.
+        # Lines end with their last repeat, if they have any, and `ended` is not looked at before that.
         self.ended = took_last if columns else Mux(self.own, item.eof, took_last)
         damage_now = item.damaged | (self.damage & ~self.starts)
         self.damaged = Mux(self.own, damage_now, self.damage)

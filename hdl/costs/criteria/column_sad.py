@@ -46,22 +46,22 @@ class Summand:
 class ColumnSad(wiring.Component):
     """Sums a column's absolute differences over each window's height, one column a clock.
 
-    ``|a - b|`` is ``a - b`` or its negation, which is one's complement and a 1. The complement is
-    taken at the input of the adder that follows, and the 1 is that adder's carry, so that an absolute
-    difference costs one subtraction. A row whose last 1 no adder takes computes a difference in full.
+    ``|a - b|`` is ``a - b`` or its negation, which is the one's complement plus 1. The complement is
+    taken at the input of the adder that follows, and the 1 is that adder's carry, so an absolute
+    difference costs one subtraction. A row whose last 1 goes to no adder computes a difference in full.
 
     Parameters
     ----------
     windows : window heights in ascending order, all odd.
     pixel : what is compared.
-    stored_rows : rows whose costs come from memory. They are the upper ones; each was computed when
+    stored_rows : rows whose costs come from memory. They are the upper ones; each was computed while
         it was lower in the column.
     places : columns of the longest line, times candidates of a pixel.
 
     Members
     -------
-    valid, place : a column comes in `LOOKUP_AHEAD` clocks, and which of the line's, candidates counted
-        apart.
+    valid, place : a column comes in `LOOKUP_AHEAD` clocks; which one of the line's, candidates counted
+        separately.
     left, right : the columns to compare, top first, without the stored rows.
     o : ``c3, c5, ...``: the cost of the middle 3, 5, ... rows, `latency` clocks later.
     """
@@ -114,7 +114,7 @@ class ColumnSad(wiring.Component):
     def _rows(self, m: Module, pipeline: Pipeline) -> dict[int, Summand]:
         """The cost of each row, by its offset from the middle."""
         radius = self._windows[-1] // 2
-        newest = self._stored - radius  # of the rows that are remembered: the uppermost computed one
+        newest = self._stored - radius  # of the rows that are remembered: the topmost computed one
         offsets = range(newest, radius + 1)
         # What is remembered must be complete, and so must one row of the innermost window.
         innermost = self._windows[0] // 2
@@ -165,12 +165,12 @@ def _row_costs(
     pixels: Mapping[int, tuple[Value, Value]],
     complete: Container[int],
 ) -> dict[int, Summand]:
-    """The cost of each row of pixels. Those that must be ``complete`` lack no 1."""
+    """The cost of each row of pixels. No 1 is missing from those that must be ``complete``."""
     rows = {offset: _differences(pipeline, pixel, time, *pair) for offset, pair in pixels.items()}
     ready = time + row_operations(pixel)
     if pixel.channels == 1:
         return {o: _gray_cost(gray, ready, whole=o in complete) for o, (gray,) in rows.items()}
-    # Two inverted operands do not fit into a carry cell of ECP5, two complements of them do: the
+    # Two inverted operands do not fit into an ECP5 carry cell, but two complements of them do: the
     # complement of x + y + carry is the sum of their complements and the carry's.
     first = {(offset, 0): _complement(red, green) for offset, (red, green, _) in rows.items()}
     first |= {(offset, 1): _complement(row[2]) for offset, row in rows.items() if offset in complete}
@@ -219,13 +219,13 @@ def _differences(
 
 
 def _complement(a: Difference, b: Difference | None = None) -> Field:
-    """The one's complement of ``a + b`` but for the 1 that is missing from b; of ``a`` alone, whole."""
+    """The one's complement of ``a + b`` without the 1 that is missing from b; of ``a`` alone, in full."""
     other = b.complement() if b else replace(a.word, value=Const(a.word.maximum, len(a.word.value)))
     return Field(a.complement(), other, replace(a.sign, value=~a.sign.value))
 
 
 def _add(a: Summand, b: Summand) -> Summand:
-    """Their sum: what is missing from one of them comes in as its carry."""
+    """The sum of both: what is missing from one of them comes in as the carry."""
     if a.missing is None:
         a, b = b, a
     (word,) = add_fields([Field(a.word, b.word, a.missing)])

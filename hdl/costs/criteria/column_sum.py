@@ -10,9 +10,9 @@ from softdepth.hdl.costs.criteria.running_sums import RunningSums
 
 
 class ColumnSum(wiring.Component):
-    """The sum of a column's differences: no memory, and logic that grows with the rows. One a clock.
+    """The sum of a column's differences: no memory, but logic that grows with the rows. One a clock.
 
-    Up to 16 rows, whose additions fit into the clocks that a running sum takes.
+    At most 16 rows: their additions fit into the clocks that a running sum takes.
 
     Parameters
     ----------

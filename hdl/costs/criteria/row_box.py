@@ -37,7 +37,7 @@ class RowBox(wiring.Component):
         columns: list[Value] = []
         for k in range(self._columns):
             apart = self._steps if k else self._steps * self._lag
-            # Registers, however many: a ring in memory needs a counter, which is three times the logic.
+            # Registers, however many: a ring in memory needs a counter, and so three times the logic.
             m.submodules[f"delay_{k}"] = delay = Delay(self.column.shape(), apart, registers=True)
             m.d.comb += [delay.en.eq(self.valid), delay.i.eq(value)]
             value = delay.o

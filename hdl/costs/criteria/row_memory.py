@@ -1,4 +1,4 @@
-"""A candidate's row costs of the lines before, in block RAM."""
+"""A candidate's row costs on earlier lines, in block RAM."""
 
 from amaranth.hdl import Cat, Module, ShapeLike, Signal
 from amaranth.lib import data, wiring
@@ -8,7 +8,7 @@ from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.sliced_memory import SlicedMemory
 
 LOOKUP_AHEAD = 2
-"""Clocks that a place is looked up before its columns are there to compare."""
+"""How many clocks a place is looked up before its columns are there to compare."""
 
 
 class RowMemory(wiring.Component):
@@ -27,8 +27,8 @@ class RowMemory(wiring.Component):
     Members
     -------
     valid, place : a place is looked up.
-    newest : its cost on the newest line, `latency` clocks later; it is remembered.
-    rows : and on the lines before, oldest first, in the same clock as ``newest``.
+    newest : the place's cost on the newest line, `latency` clocks later; it is remembered.
+    rows : its costs on the lines before, oldest first, in the same clock as ``newest``.
     """
 
     latency = 4
@@ -53,8 +53,8 @@ class RowMemory(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         m.submodules.costs = costs = SlicedMemory(self._layout, self._places)
-        # A register before the memory, as places come to all lanes from afar, and two behind it: its own, and
-        # one that may lie beside the adders.
+        # A register before the memory, as places have a long way to the lanes, and two behind it: its own,
+        # and one that may lie beside the adders.
         read = Signal(self._layout, reset_less=True)
         rows = Signal(self._layout, reset_less=True)
         m.d.sync += [read.eq(costs.data), rows.eq(read)]

@@ -1,4 +1,4 @@
-"""Sums along a row that take a column in and leave one out."""
+"""Running sums along a row: each adds a column and drops one."""
 
 from amaranth.hdl import Module, Mux, Signal
 from amaranth.lib import wiring
@@ -18,9 +18,9 @@ class RowSum(wiring.Component):
     Members
     -------
     valid, column : a step's column sum.
-    leaving : in the same clock, that of ``columns`` slots before.
-    begins : the step is of a line's first slot.
-    full : what leaves is of the same line.
+    leaving : in the same clock, the column sum of ``columns`` slots before.
+    begins : the step belongs to a line's first slot.
+    full : the column that leaves is of the same line.
     o : the sum, `latency` clocks later.
     """
 

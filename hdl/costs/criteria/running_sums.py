@@ -1,4 +1,4 @@
-"""Sums down columns that take a row in and leave one out, in block RAM."""
+"""Running sums down columns, in block RAM: each adds a row and drops one."""
 
 from collections.abc import Sequence
 
@@ -11,10 +11,10 @@ from softdepth.hdl.memory.packed_memory import PackedMemory
 
 
 class RunningSums(wiring.Component):
-    """Several sums of the same place: ``sum += new - old``, begun from 0 on a frame's first row.
+    """Several sums at the same place: ``sum += new - old``, starting from 0 on a frame's first row.
 
-    What the memory held before a frame does not matter. One place a clock; the same place not sooner than 6
-    clocks later.
+    What the memory held before a frame does not matter. One place a clock; the same place may come again 6
+    clocks later at the earliest.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class RunningSums(wiring.Component):
             for name, line in (("place", place), ("begins", begins), ("outside", outside)):
                 line.append(Signal.like(line[-1], name=f"{name}_{clock}", reset_less=True))
                 m.d.sync += line[-1].eq(line[-2])
-        # Clock 1: the memory is read. Clock 3: its word, of registers; clock 4: with what changes it.
+        # Clock 1: the memory is read. Clock 3: its word, from registers. Clock 4: the word and its change.
         read = Signal(self._sums)
         m.d.comb += [
             memory.read.eq(occurs[1]),

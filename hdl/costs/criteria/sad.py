@@ -22,7 +22,7 @@ class SadCriteria(wiring.Component):
 
     Windows of one centre share their absolute differences: a column of the largest window is
     computed once, summed outwards for each window's height, and boxed along the row. Criteria
-    that look right wait for their columns, the others are held back, so that all leave together.
+    that look right wait for their columns, and the others are delayed to leave together with them.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class SadCriteria(wiring.Component):
     Members
     -------
     valid : the columns are a step of a pixel.
-    coming, place : those in `look_ahead` clocks are one, and which of the line's steps.
+    coming, place : the columns that come in `look_ahead` clocks are a step; which one of the line's.
     left, right : the columns to compare, from the top: the largest window without its stored rows.
     o : the sums, ``latency`` clocks later, in the order of ``criteria``. They belong to the pixel
         `Config.window_right` columns before the one that entered.

@@ -25,21 +25,21 @@ def support_layout(taps: int) -> data.StructLayout:
 
 
 class SupportWeights(wiring.Component):
-    """Once a pixel: the columns of the support whose colour is like the centre's, and one reciprocal.
+    """Once per pixel: the support's columns whose colour is like the centre's, and one reciprocal.
 
     Parameters
     ----------
     colour_bits, channels : of a pixel.
     taps, spacing : columns, and how far apart; the pixel's own is in the middle.
-    like : a column counts where no channel differs by as much.
+    like : a column counts if every channel differs by less than this.
 
     Members
     -------
     enters : a slot begins: the colour of its column is there.
     colour, inside : that colour, and whether the column lies in the frame.
-    weights : a bit a column, leftmost first, of the pixel `reach` columns to the left, `latency` clocks
+    weights : a bit per column, leftmost first, for the pixel `reach` columns to the left, `latency` clocks
         later.
-    reciprocal : of their number, in the same clock.
+    reciprocal : of the number of columns that count, in the same clock.
     centre : the pixel's own colour, one clock after ``enters``.
     """
 

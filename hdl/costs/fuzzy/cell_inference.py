@@ -65,7 +65,7 @@ class CellInference(wiring.Component):
         both = b_above & c_above
         neither = ~b_above & ~c_above
         if self._joins:
-            # The larger pair is found once, and then whose strengths count.
+            # Which pair is larger is found once, then which strengths count.
             larger = choose(b_above.at(ready), pairs[2], pairs[0]) > pairs[1]
             in_f = a_above & neither
             f1 = choose(in_f & larger, f0, f1)

@@ -18,9 +18,9 @@ OPERATIONS = 5
 class CellMeanInference(wiring.Component):
     """What `RuleInference` computes for MEAN, ``rules="corrected"`` and ``firing="cell"``, in six sums.
 
-    Theta is a sum, and the six firing strengths of a cell belong to six conclusions in a row, so that all
+    Theta is a sum, and the six firing strengths of a cell belong to six conclusions in a row, so all
     maxima are one distance. Let A, B and C be the membership of criteria 1, 2 and 3 in the upper one of
-    the two labels that they lie between, and the bits a, b and c tell that this label is high, not middle.
+    the two labels that they lie between; the bits a, b and c tell that this label is high, not middle.
     In units of `Config.one`, with ``p = 3 a + b + c``::
 
         den = 9 + 2 |B - C|
@@ -30,7 +30,7 @@ class CellMeanInference(wiring.Component):
         X = max(B, C) if a else min(B, C);  Y: the other one
         Z = X - Y if a = b = c else Y - X;  thrice that where both b and c differ from a
 
-    The second bracket is 0 to 8, so that the -32 is constant bits above it. Z is ``B - C`` or its triple,
+    The second bracket is 0 to 8, so the -32 is constant bits above it. Z is ``B - C`` or its triple,
     or the opposite of that; X is chosen and Z complemented right in front of an addition, where a carry
     cell of ECP5 has room for it. A reset or set of registers limits a criterion to 2T,
     which takes no logic. Two pairs of sums share a carry chain each: one adder for every sum takes 4 LUT4

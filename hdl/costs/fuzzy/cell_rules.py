@@ -1,4 +1,4 @@
-"""What the rules of a cell have in common, which `CellInference` is made of."""
+"""What the rules of a cell have in common; `CellInference` is made of it."""
 
 from itertools import product
 

@@ -19,7 +19,7 @@ SUM_OPERATIONS = max(
 class Defuzzifier(wiring.Component):
     """Numerator and denominator of ``D = sum(Y_k M_k) / sum(Y_k)``; the fraction is compared as it is.
 
-    The weights are small constants, so that their products are shifts and adds. If the
+    The weights are small constants, so their products are shifts and adds. If the
     denominator is not above zero, which only strengths below zero can cause, the cost is
     infinite: 1 / 0. One set a clock.
 

@@ -50,7 +50,7 @@ class ViewQueue(wiring.Component):
         size, resets = self._layout.size, Signal()
         if self._own_clock:
             m.domains.source = ClockDomain(local=True)
-            crosses = Signal(reset_less=True)  # what is brought over comes from a register
+            crosses = Signal(reset_less=True)  # what crosses must come from a register
             m.d.sync += crosses.eq(ResetSignal("sync"))
             m.submodules.reset = ResetSynchronizer(crosses, domain="source")
             m.d.comb += [ClockSignal("source").eq(self.clk), resets.eq(ResetSignal("source"))]

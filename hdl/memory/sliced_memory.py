@@ -1,4 +1,4 @@
-"""A memory of wide words, cut so that block RAM holds it without a multiplexer."""
+"""A memory of wide words, cut into slices that block RAM holds without a multiplexer."""
 
 from amaranth.hdl import Cat, Module, ShapeLike, Value
 from amaranth.lib import wiring

@@ -73,8 +73,8 @@ class RightWinner(wiring.Component):
                     m.d.sync += found.eq(now)
                 entering = found
                 continue
-            # What steps found, until their place's turn comes again; and what the far end was in this slot
-            # and, where that is wanted later than in the first step, in the slot before.
+            # What each step found, kept until its place's turn comes again; and the far end of this slot and,
+            # where that is wanted later than in the first step, of the slot before.
             waits = [Signal(best, name=f"waits_{lane}_{k}", reset_less=True) for k in range(steps - 2)]
             far = [Signal(best, name=f"far_{lane}_{k}", reset_less=True) for k in range(min(steps - 1, 2))]
             line = [now, *waits]

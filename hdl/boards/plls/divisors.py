@@ -9,7 +9,7 @@ MHZ = 1_000_000
 
 
 class Divisors(NamedTuple):
-    """``out = in / reference * feedback``, and what divides the oscillator at ``in / reference * vco``."""
+    """``out = in / reference * feedback``, and the divisor of the oscillator at ``in / reference * vco``."""
 
     reference: int
     feedback: int

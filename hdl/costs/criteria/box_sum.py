@@ -12,7 +12,7 @@ from softdepth.hdl.memory.delay import Delay
 class BoxSum(wiring.Component):
     """Sums the column costs of the last ``window`` pixels, for ``steps`` interleaved candidates.
 
-    Windows are built from narrower ones (7 = 4 + 3, 4 = 2 + 2, ...), so that w columns take about
+    Windows are built from narrower ones (7 = 4 + 3, 4 = 2 + 2, ...), so w columns take about
     ``log2(w)`` adders and no running state: nothing has to be cleared between lines or frames.
 
     Parameters

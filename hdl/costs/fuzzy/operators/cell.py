@@ -1,4 +1,4 @@
-"""Theta over the memberships of a cell, of which those of a criterion complement each other."""
+"""Theta over the memberships of a cell, where those of each criterion complement each other."""
 
 from dataclasses import dataclass
 from typing import Protocol

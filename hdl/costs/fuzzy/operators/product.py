@@ -13,7 +13,7 @@ from softdepth.spec.config import Config
 class Product:
     """Theta as the product of the memberships; each of the two products is rounded half up.
 
-    Memberships complement each other, so that ``b (one - c) = one b - b c``, exact before it is rounded:
+    Memberships complement each other, so ``b (one - c) = one b - b c``, exact before it is rounded:
     one multiplier serves all pairs of a cell, and one a pair both its rules. `Config.multipliers`
     counts these four, of ``membership_bits + 1`` bits a side.
     """

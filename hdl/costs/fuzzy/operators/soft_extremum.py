@@ -47,7 +47,7 @@ class SoftExtremum:
         c_larger = difference.negative
         smaller, larger = choose(c_larger, b, c), choose(c_larger, c, b)
         p2 = ((larger if keeps else smaller) + same).within(*self._pairs)
-        # one - b and one - c are c and b, less what b + c exceeds one by.
+        # one - b and one - c are c and b, each less the amount by which b + c exceeds one.
         p0 = _less(p2, sum_, *self._pairs)
         p1 = larger + mixed
         sum_ = sum_.at(p1.time)

@@ -11,7 +11,7 @@ from softdepth.spec.soft import soft_min_1_table
 class SoftMin1:
     """Theta as the minimum plus a small table of ``|a - b|``, nested; it may go below zero.
 
-    The table is monotone and grows by at most 1, so that Theta is monotone as the rule array needs.
+    The table is monotone and grows by at most 1, so Theta is monotone, as the rule array needs.
     """
 
     pair_operations = 4

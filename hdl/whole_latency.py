@@ -97,7 +97,7 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     num, den = (costs.layout.members[name] for name in ("num", "den"))
     tree = ArgminTree(num, den, config.lanes)
     sequence = ArgminSequence(candidate_layout(num, den, config.disparities), steps)
-    front = Front.latency + FrameEnds.latency
+    front = Front.to_descriptors
     described = TallWindow.latency_of(clocks_of(steps)) + descriptors_latency(
         plan(config).descriptors.values()
     )

@@ -41,6 +41,8 @@ class Front(wiring.Component):
 
     latency = ItemQueue.latency
     """Clocks from a pair to its item."""
+    to_descriptors = ItemQueue.latency + FrameEnds.latency + ItemQueue.latency
+    """Clocks from a pair to the descriptors' input."""
     places = ItemQueue.places
     """Items that wait here where the room behind is busy."""
 
@@ -92,7 +94,10 @@ class Front(wiring.Component):
             m.submodules.overlap = overlap = Overlap(config)
             wiring.connect(m, pairs, overlap.i)
             pairs = overlap.o
-        wiring.connect(m, pairs, self._descriptors.i)
+        # The window decides late in its clock, and that reaches no further than this.
+        m.submodules.pairs = places = ItemQueue(pairs.payload.shape())
+        wiring.connect(m, pairs, places.i)
+        wiring.connect(m, places.o, self._descriptors.i)
         wiring.connect(m, self._descriptors.o, wiring.flipped(self.o))
         return m
 

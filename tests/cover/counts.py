@@ -17,7 +17,7 @@ from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.sim.build import TOP
 from softdepth.sim.trials import Coverage, Trial, run_trials
 from softdepth.spec.config import Config
-from tests.mutation.netlist import ROOMS, SIMPLIFIED, yosys_of_faults
+from tests.mutation.netlist import SIMPLIFIED, room_of, yosys_of_faults
 from tests.mutation.regression import regression
 
 TEXTS = {
@@ -54,8 +54,7 @@ class Point:
     @property
     def room(self) -> str:
         """Of the core's rooms, the one that it is in; empty in none."""
-        first = self.block.partition(".")[0]
-        return first if first in ROOMS or not first else "post"
+        return room_of(self.block)
 
 
 @dataclass(frozen=True)

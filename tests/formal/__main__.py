@@ -19,8 +19,6 @@ from tests.formal.declared import DOCUMENT, PART, declared, table
 
 RUN = "proofs-run"
 SLOWEST = 3
-
-
 SELECTING = {"-k", "--deselect", "--lf"}
 """Options with which a run is not one of all proofs, and is not recorded."""
 

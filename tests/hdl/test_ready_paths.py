@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from amaranth.hdl import Module
-from amaranth.lib import data, stream
-from amaranth.lib.wiring import Component, In, Out
+from amaranth.lib import data
+from amaranth.lib.wiring import Component
 
 from softdepth.flow.tools import find_tool
 from softdepth.hdl.axi.core import AxiCore
@@ -25,6 +24,7 @@ from softdepth.hdl.post.median import Median
 from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
+from tests.support.behind_queue import BehindQueue
 from tests.support.claims import Claim
 from tests.support.proofs import SAID
 from tests.support.simulation import sad
@@ -67,24 +67,11 @@ def _clocked(cell: dict[str, Any]) -> bool:
     return kind in CLOCKED or (kind == "memrd_v2" and int(cell["parameters"]["CLK_ENABLE"], 2) == 1)
 
 
-class Waiting(Component):
+class Waiting(BehindQueue):
     """A queue's output that is offered only where it is taken at once."""
 
-    i: In(stream.Signature(2))
-    o: Out(stream.Signature(2))
-
-    def elaborate(self, platform: object) -> Module:
-        m = Module()
-        m.submodules.queue = queue = ItemQueue(2)
-        m.d.comb += [
-            queue.i.valid.eq(self.i.valid),
-            queue.i.payload.eq(self.i.payload),
-            self.i.ready.eq(queue.i.ready),
-            self.o.valid.eq(queue.o.valid & self.o.ready),
-            self.o.payload.eq(queue.o.payload),
-            queue.o.ready.eq(self.o.ready),
-        ]
-        return m
+    def given(self, queue: ItemQueue) -> list:
+        return [self.o.valid.eq(queue.o.valid & self.o.ready), self.o.payload.eq(queue.o.payload)]
 
 
 CORES = {

@@ -4,9 +4,8 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from amaranth.hdl import Fragment, Module, Value
-from amaranth.lib import stream
-from amaranth.lib.wiring import Component, In, Out
+from amaranth.hdl import Fragment, Value
+from amaranth.lib.wiring import Component
 
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.front.front import Front
@@ -18,6 +17,7 @@ from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
 from softdepth.spec.config import Config
+from tests.support.behind_queue import BehindQueue
 from tests.support.claims import Claim
 from tests.support.proofs import SAID
 
@@ -86,29 +86,14 @@ def test_a_stream_leaves_a_proven_queue(name: str) -> None:
     assert queue_of(block()) is kind
 
 
-class Passing(Component):
-    """A block behind a queue."""
-
-    i: In(stream.Signature(2))
-    o: Out(stream.Signature(2))
-
-    def elaborate(self, platform: object) -> Module:
-        m = Module()
-        m.submodules.queue = queue = ItemQueue(2)
-        m.d.comb += [
-            queue.i.valid.eq(self.i.valid),
-            queue.i.payload.eq(self.i.payload),
-            self.i.ready.eq(queue.i.ready),
-            queue.o.ready.eq(self.o.ready),
-            *self.given(queue),
-        ]
-        return m
+class Withdrawing(BehindQueue):
+    """One whose offer is taken back when another item arrives."""
 
     def given(self, queue: ItemQueue) -> list:
         return [self.o.valid.eq(queue.o.valid & ~self.i.valid), self.o.payload.eq(queue.o.payload)]
 
 
-class Mixing(Passing):
+class Mixing(BehindQueue):
     """One whose word depends on what arrives."""
 
     def given(self, queue: ItemQueue) -> list:
@@ -117,7 +102,8 @@ class Mixing(Passing):
 
 @ENDS.refuted
 @pytest.mark.parametrize(
-    "block", [pytest.param(Passing, id="an offer is taken back"), pytest.param(Mixing, id="a word changes")]
+    "block",
+    [pytest.param(Withdrawing, id="an offer is taken back"), pytest.param(Mixing, id="a word changes")],
 )
 def test_logic_behind_a_queue_is_found(block: type[Component]) -> None:
     SAID.append("structure")

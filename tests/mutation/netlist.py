@@ -40,6 +40,12 @@ MODES = {
 }
 
 
+def room_of(block: str) -> str:
+    """Of the core's rooms, the one that a block is in; empty in none."""
+    first = block.partition(".")[0]
+    return first if first in ROOMS or not first else "post"
+
+
 @dataclass(frozen=True)
 class Mutant:
     """One fault.
@@ -61,8 +67,7 @@ class Mutant:
     @property
     def room(self) -> str:
         """Of the core's rooms, the one that it is in."""
-        first = self.block.partition(".")[0]
-        return first if first in ROOMS or not first else "post"
+        return room_of(self.block)
 
     def __str__(self) -> str:
         return f"{self.block or 'merged'}: {self.code or '(several lines)'}: {self.what}"

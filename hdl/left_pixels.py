@@ -24,7 +24,8 @@ class LeftPixels:
     Members
     -------
     origin : ``results`` have them up to the core's output; up to the masked ``medians``; or nothing behind
-        the ``guard`` has them: those of windows of pixels, and where the views' overlap is moved.
+        the ``guard`` has them: those of windows of pixels, and where the views' overlap is moved or colours
+        lose bits.
     places : pixels that are kept at a time, at least: as many as come in before the first one's result is
         there, at full rate. With fewer than the result waits for, the core would wait for itself.
     """
@@ -42,13 +43,14 @@ class LeftPixels:
             assert isinstance(winners, BandWinners)
             seen = config.reach_rows * width + config.reach_right
             return cls("guard", seen + _during(Front.latency + winners.latency, config.steps))
-        if config.min_disparity:
+        if config.min_disparity or config.colour_bits < config.pixel.bits:
             whole = WholeLatency.of(config)
             return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))
-        if reach := config.post.masked_median:
+        if config.post.masked_median:
+            rows, columns = config.post.masked_reach
             with asked():
                 stage = masked_medians_of(config)
-            return cls("medians", reach * width + reach + _during(stage.latency, stage.clocks))
+            return cls("medians", rows * width + columns + _during(stage.latency, stage.clocks))
         return cls("results", 0)
 
 

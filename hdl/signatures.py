@@ -9,11 +9,10 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.spec.config import CONFIDENCE_BITS, Config, PixelFormat
-from softdepth.spec.post import ISLAND_REACH, LIKE_MAX
+from softdepth.spec.post import ISLAND_BITS, LIKE_MAX
 
 COUNTER_BITS = 16
 TOLERANCE_BITS = 4
-ISLAND_BITS = ((2 * ISLAND_REACH + 1) ** 2).bit_length()
 
 
 def pixel_layout(pixel: PixelFormat) -> data.ArrayLayout:

@@ -24,7 +24,7 @@ from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import number_latency
 from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import Config
-from softdepth.spec.post import ISLAND_REACH, MEDIAN_REACH
+from softdepth.spec.post import MEDIAN_REACH
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,8 @@ class WholeLatency:
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
     ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
-    masked : reach of the masked medians, which take as many slots more a line, and lines more a frame.
+    masked : rows and columns that the masked medians reach: they take so many lines more a frame, and slots
+        more a line.
     """
 
     rows: int
@@ -52,7 +53,7 @@ class WholeLatency:
     below: int
     drain: int
     ahead: int
-    masked: int
+    masked: tuple[int, int]
 
     @classmethod
     def of(cls, config: Config) -> "WholeLatency":
@@ -64,7 +65,8 @@ class WholeLatency:
         # winners are known so many columns later, which are the next line's.
         column = config.disparities - 2 + ahead + late if post.check else 0
         # With the last pixel: repeats of its column, and what follows from windows that look ahead.
-        in_a_row = 1 + (ISLAND_REACH if post.island else 0) + (0 if post.check else ahead + reach.right)
+        repeats = post.island_columns // 2 if post.island else 0
+        in_a_row = 1 + repeats + (0 if post.check else ahead + reach.right)
         with asked():
             clocks = _up_to_winners(config, ahead) + _behind(config)
         return cls(
@@ -76,7 +78,7 @@ class WholeLatency:
             below=reach.below,
             drain=drain_of(config),
             ahead=ahead,
-            masked=post.masked_median,
+            masked=post.masked_reach,
         )
 
     def frame_clocks(self, width: int, height: int, steps: int) -> int:
@@ -86,7 +88,8 @@ class WholeLatency:
         """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
         front = (width + 2 * self.ahead) * (height + self.ahead + self.below) * clocks_of(steps)
-        medians = (width + self.masked) * (height + self.masked) * min(steps, 2)
+        rows, columns = self.masked
+        medians = (width + columns) * (height + rows) * min(steps, 2)
         return max(costs, front, medians)
 
 
@@ -122,7 +125,7 @@ def _behind(config: Config) -> int:
 
     clocks = max(-config.min_disparity, 0)  # border results that follow
     if post.island:
-        clocks += window(ISLAND_REACH, Island.latency)
+        clocks += window(post.island_columns // 2, Island.latency)
     if post.fill:
         clocks += Fill.latency
     if post.median:

@@ -15,6 +15,12 @@ from softdepth.golden.front.pair import Image
 Mask = NDArray[np.bool_]
 
 
+def coarse(image: Image, kept: int, bits: int = BITS) -> Image:
+    """`image` with the lower bits of each channel 0, but for the `kept` highest."""
+    dropped = max(bits - kept, 0)
+    return image >> dropped << dropped
+
+
 def alike_beside(image: Image | NDArray[Any], offset: int, like: int, bits: int = BITS) -> Mask:
     """Where the pixel `offset` columns to the right lies in the image and is like the pixel itself.
 

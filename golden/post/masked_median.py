@@ -1,9 +1,11 @@
 """The colour-masked median: among the pixels of a run that are like the centre, the lower median.
 
-Of the 2 * reach + 1 pixels in the row around a pixel, those count that lie in the image, have a similar
-colour in the reference view (`likeness`), and are valid; of these n, rank ``(n - 1) // 2`` is taken. Invalid
-results are left unchanged. Down the column, the same is done to the transposed picture.
+Of the pixels in the row at some offsets from a pixel, 0 among them, those count that lie in the image, have a
+similar colour in the reference view (`likeness`), and are valid; of these n, rank ``(n - 1) // 2`` is taken.
+Invalid results are left unchanged. Down the column, the same is done to the transposed picture.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,22 +22,23 @@ def along_row(
     values: NDArray[np.uint16],
     valid: NDArray[np.bool_],
     image: Image,
-    reach: int,
+    offsets: Sequence[int],
     like: int,
     bits: int = BITS,
 ) -> NDArray[np.uint16]:
     """Rows x columns in and out; `image` is the reference view, rows x columns x channels of `bits` bits."""
     height, width = values.shape
+    reach = max(offsets)
     out = values.copy()
     for y in range(0, height, BAND_ROWS):
         rows = slice(y, min(y + BAND_ROWS, height))
         around = np.pad(
             np.where(valid[rows], values[rows], MISSING), ((0, 0), (reach, reach)), constant_values=MISSING
         )
-        samples = np.empty((*values[rows].shape, 2 * reach + 1), np.uint16)
-        for k, offset in enumerate(range(-reach, reach + 1)):
+        samples = np.empty((*values[rows].shape, len(offsets)), np.uint16)
+        for k, offset in enumerate(offsets):
             counts = alike_beside(image[rows], offset, like, bits)
-            samples[:, :, k] = np.where(counts, around[:, k : k + width], MISSING)
+            samples[:, :, k] = np.where(counts, around[:, reach + offset : reach + offset + width], MISSING)
         np.copyto(out[rows], lower_median(samples), where=valid[rows])
     return out
 
@@ -44,9 +47,9 @@ def down_column(
     values: NDArray[np.uint16],
     valid: NDArray[np.bool_],
     image: Image,
-    reach: int,
+    offsets: Sequence[int],
     like: int,
     bits: int = BITS,
 ) -> NDArray[np.uint16]:
     """As `along_row`, in the other direction."""
-    return along_row(values.T, valid.T, image.transpose(1, 0, 2), reach, like, bits).T
+    return along_row(values.T, valid.T, image.transpose(1, 0, 2), offsets, like, bits).T

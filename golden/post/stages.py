@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.golden.front.gradient import BITS
+from softdepth.golden.front.likeness import coarse
 from softdepth.golden.front.pair import Image
 from softdepth.golden.post.fill import fill
 from softdepth.golden.post.island import on_an_island
@@ -53,7 +54,9 @@ def stages(
         lost = measured & ~consistent(found.left, found.right, post.tolerance)
         done.append(_without(done[-1], "check", lost, Validity.INCONSISTENT))
     if post.island:
-        lost = on_an_island(done[-1].code < Validity.BORDER, post.island)
+        lost = on_an_island(
+            done[-1].code < Validity.BORDER, post.island, post.island_rows, post.island_columns
+        )
         done.append(_without(done[-1], "island", lost, Validity.ISLAND))
     code = done[-1].code
     measured = code < Validity.BORDER
@@ -67,9 +70,13 @@ def stages(
         done.append(Stage("fill", fill(done[-1].disparity, measured), code))
     if post.median:
         done.append(Stage("median", median(done[-1].disparity, taking_part), code))
-    if reach := post.masked_median:
-        for name, direction in (("along the row", along_row), ("down the column", down_column)):
-            values = direction(done[-1].disparity, taking_part, image, reach, post.like, bits)
+    if post.masked_median:
+        image = coarse(image, config.colour_bits, bits)
+        for name, direction, offsets in (
+            ("along the row", along_row, post.masked_along),
+            ("down the column", down_column, post.masked_down),
+        ):
+            values = direction(done[-1].disparity, taking_part, image, offsets, post.like, bits)
             done.append(Stage(f"masked median {name}", values, code))
     return done
 

@@ -3,6 +3,19 @@
 from amaranth.hdl import Cat, Value
 
 
+def coarse(colour: Value, channels: int, kept: int) -> Value:
+    """The ``kept`` highest bits of each channel of a colour; all, where a channel has no more."""
+    colour = Value.cast(colour)
+    bits = len(colour) // channels
+    dropped = max(bits - kept, 0)
+    return Cat(colour[start + dropped : start + bits] for start in range(0, len(colour), bits))
+
+
+def coarse_like(like: Value | int, dropped: int) -> Value | int:
+    """What colours without their ``dropped`` lowest bits must differ by in order to differ by ``like``."""
+    return (like + (1 << dropped) - 1) >> dropped
+
+
 def alike(a: Value, b: Value, channels: int, like: Value | int) -> Value:
     """Whether no channel of two colours differs by ``like`` or more, without a register.
 

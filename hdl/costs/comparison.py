@@ -175,6 +175,11 @@ class Plan:
         return not comparison.taps and columns > FEW_COLUMNS and self.right == comparison.ahead
 
     @property
+    def supported(self) -> bool:
+        """Some comparison has a support, for which whole colours are compared."""
+        return any(c.taps for c in self.comparisons)
+
+    @property
     def rows(self) -> dict[str, tuple[int, ...]]:
         """For each descriptor, how far above the newest row it is wanted, ascending."""
         found: dict[str, set[int]] = {}

@@ -4,6 +4,7 @@ from amaranth.hdl import Cat, Const, Module, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In
 
+from softdepth.hdl.arithmetic.colour import coarse
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.border import in_border
 from softdepth.hdl.costs.bundle import cost_ports
@@ -47,7 +48,7 @@ def tags_layout(config: Config) -> data.StructLayout:
             "emits": 1,
             "border": int(not config.whole_frame),
             "full": 1,
-            "colour": config.pixel.size,
+            "colour": config.colour_size,
             **dict.fromkeys(MARKERS, 1),
         }
     )
@@ -276,9 +277,12 @@ class WholeCosts(wiring.Component):
             ]
 
     def _centre(self, m: Module, colour: Value, enters: Value) -> Value:
-        """The colour of the pixel that is judged, from a clock after its slot's columns, for all steps."""
-        m.submodules.colours = colours = Delay(self._colour_bits, self._plan.right)
-        centre = Signal(self._colour_bits, name="centre", reset_less=True)
+        """What goes on of the colour of the pixel that is judged, from a clock after its slot's columns, for
+        all steps.
+        """
+        colour = coarse(colour, self._channels, self._config.colour_bits)
+        m.submodules.colours = colours = Delay(len(colour), self._plan.right)
+        centre = Signal(len(colour), name="centre", reset_less=True)
         m.d.comb += [colours.en.eq(enters), colours.i.eq(colour)]
         with m.If(enters):
             m.d.sync += centre.eq(colours.o)

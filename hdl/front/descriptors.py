@@ -7,6 +7,7 @@ from amaranth.hdl import Cat, Const, Module, Signal, Value, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.arithmetic.colour import coarse
 from softdepth.hdl.front.descriptor import COLOUR, Descriptor
 from softdepth.hdl.front.luma import Colour, Luma, rest_bits
 from softdepth.hdl.front.tall_window import TallWindow
@@ -45,6 +46,7 @@ class Descriptors(wiring.Component):
     Parameters
     ----------
     channels, bits : of a pixel.
+    colour_bits : how many bits of each of the left pixel's channels go on, the highest.
     descriptors : which are wanted.
     rows : by their names, of how many rows above the pixel, ascending.
     after : lines behind a frame.
@@ -53,7 +55,7 @@ class Descriptors(wiring.Component):
     -------
     i : `raster_layout` of both views' pixels, left lowest.
     o : the same raster and the lines behind it, of whose markers ``eol`` alone is ever high: ``left``,
-        ``right`` are a `view_layout` each, ``colour`` is the left pixel ``after`` rows above.
+        ``right`` are a `view_layout` each, ``colour`` is of the left pixel ``after`` rows above.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class Descriptors(wiring.Component):
         bits: int,
         max_width: int,
         *,
+        colour_bits: int,
         descriptors: Sequence[Descriptor],
         rows: Mapping[str, Sequence[int]],
         after: int,
@@ -70,9 +73,9 @@ class Descriptors(wiring.Component):
         self._channels, self._bits, self._max_width = channels, bits, max_width
         self._rows, self._after, self._clocks = dict(rows), after, clocks
         self._descriptors = {each.name: each for each in descriptors}
-        pixel = channels * bits
+        pixel, self._colour_bits = channels * bits, colour_bits
         self.view = view_layout(descriptors, rows)
-        members = {"left": self.view, "right": self.view, "colour": unsigned(pixel)}
+        members = {"left": self.view, "right": self.view, "colour": unsigned(channels * colour_bits)}
         self.layout = data.StructLayout({**members, **dict.fromkeys(MARKERS, 1)})
         super().__init__(
             {
@@ -147,7 +150,7 @@ class Descriptors(wiring.Component):
                         Value.cast(view[field][k]).eq(late),
                     ]
             results[view_name] = Value.cast(view)
-        results["colour"] = pixel_of(self._after, "left")
+        results["colour"] = coarse(pixel_of(self._after, "left"), self._channels, self._colour_bits)
         window_stage(
             m,
             self.i,

@@ -8,16 +8,20 @@ from softdepth.hdl.arithmetic.popcount import popcount
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
 from softdepth.hdl.post.stage import delayed, window_stage
-from softdepth.hdl.signatures import ISLAND_BITS
-from softdepth.spec.post import ISLAND_REACH
+from softdepth.spec.post import ISLAND_BITS
 from softdepth.spec.validity import Validity
 
 
 class Island(wiring.Component):
-    """Turns a measurement into an island if the 5x5 pixels around it, with itself, hold fewer than ``least``.
+    """Turns a measurement into an island if the pixels around it, with itself, hold fewer than ``least``.
 
     The frame's edge is repeated. An island has value 0 and confidence 0; other results pass unchanged. One
-    result every ``clocks`` clocks, except for 4 of them a line and 2 lines a frame.
+    result every ``clocks`` clocks, except for twice ``columns`` a line and ``rows`` lines a frame.
+
+    Parameters
+    ----------
+    value_bits, colour_bits : of a result.
+    rows, columns : reach of the window.
 
     Members
     -------
@@ -29,8 +33,17 @@ class Island(wiring.Component):
     """From the window to its result in `window_stage`."""
 
     def __init__(
-        self, value_bits: int, colour_bits: int, max_width: int, least: int, *, clocks: int = 1
+        self,
+        value_bits: int,
+        colour_bits: int,
+        max_width: int,
+        least: int,
+        *,
+        rows: int,
+        columns: int,
+        clocks: int = 1,
     ) -> None:
+        self._rows, self._columns = rows, columns
         self._layout = post_layout(value_bits, colour_bits)
         self._max_width, self.clocks = max_width, clocks
         super().__init__(
@@ -44,7 +57,7 @@ class Island(wiring.Component):
     def elaborate(self, platform: object) -> Module:
         m = Module()
         layout = without_markers(self._layout)
-        window = Window(1, layout, ISLAND_REACH, ISLAND_REACH, self._max_width, clocks=self.clocks)
+        window = Window(1, layout, self._rows, self._columns, self._max_width, clocks=self.clocks)
         found = [element for row in window.window for element in row]
         # In two halves: counted together, they would take most of a clock.
         half = len(found) // 2

@@ -13,7 +13,7 @@ CODE_BITS = 3
 def post_layout(value_bits: int, colour_bits: int) -> data.StructLayout:
     """A result on its way: value, `Validity` code, confidence, its pixel's colour, and the markers.
 
-    ``colour`` is the left pixel as it came in, or whatever else the masked medians compare.
+    ``colour`` is what the masked medians compare of the left pixel.
     """
     return data.StructLayout(
         {

@@ -1,6 +1,6 @@
 """Two medians over pixels of similar colour: along the row, then down the column."""
 
-from amaranth.hdl import Cat, Module, Mux, Signal, Value
+from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
@@ -18,19 +18,21 @@ from softdepth.hdl.post.stage import delayed, waiting
 class MaskedMedians(wiring.Component):
     """Replaces each value by a lower median in its row, then by one in its column; the rest is unchanged.
 
-    Of ``2 reach + 1`` pixels, those count that lie inside the frame and whose colour differs from the
-    centre's by less than ``like`` in every channel; the centre always counts. With ``holes``, results
-    without a measurement are left out and stay as they are.
+    Of ``columns`` pixels on either side, or of every ``spacing``-th of them, and of ``rows`` above and below,
+    those count that lie inside the frame and whose colour differs from the centre's by less than ``like`` in
+    every channel; the centre always counts. With ``holes``, results without a measurement are left out and
+    stay as they are.
 
     Two pixels are compared once, when the later one arrives, and the answer is kept for both. So only half of
     the comparisons are built, and the colours of the rows above are kept for only half of the window. A pixel
     outside the frame is like no other, so its colour and value do not matter and no edge is repeated. Both
-    medians use the same slots: ``reach`` more per line and ``reach`` more lines per frame, in which the input
-    is held back. One result every ``clocks`` clocks.
+    medians use the same slots: ``columns`` more per line and ``rows`` more lines per frame, in which the
+    input is held back. One result every ``clocks`` clocks.
 
     Parameters
     ----------
     value_bits, colour_bits, channels : of a result; ``channels`` is how many equal parts its colour has.
+    rows, columns, spacing : reach down the column and along the row, and which pixels of the row count.
     like : a number, or a signal that may change between frames.
     clocks : the fewest that a pixel takes, 1 or 2. With 2, the memory and its multiplexers are smaller.
 
@@ -47,13 +49,16 @@ class MaskedMedians(wiring.Component):
         channels: int,
         max_width: int,
         *,
-        reach: int,
+        rows: int,
+        columns: int,
+        spacing: int = 1,
         like: Value | int,
         holes: bool = False,
         clocks: int = 1,
     ) -> None:
         self._value_bits, self._colour_bits, self._channels = value_bits, colour_bits, channels
-        self._max_width, self._reach, self._like = max_width, reach, like
+        self._rows, self._columns, self._spacing = rows, columns, spacing
+        self._max_width, self._like = max_width, like
         self._holes, self.clocks = holes, clocks
         self._layout = post_layout(value_bits, colour_bits)
         super().__init__(
@@ -65,11 +70,11 @@ class MaskedMedians(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        reach, clocks = self._reach, self.clocks
-        across = 2 * reach + 1
+        rows, columns, spacing, clocks = self._rows, self._columns, self._spacing, self.clocks
+        taps = columns // spacing  # on either side of the row's middle
         members = self._layout.members
         put = self._put()
-        m.submodules.slots = slots = PostSlots(reach, self._max_width, clocks)
+        m.submodules.slots = slots = PostSlots(rows, columns, self._max_width, clocks)
         payload = self.i.payload
         m.d.comb += [
             slots.valid.eq(self.i.valid),
@@ -92,11 +97,15 @@ class MaskedMedians(wiring.Component):
         for clock in range(1, 4 + clocks):
             colours.append(delayed(m, colours[-1], 1, f"late_{clock}"))
         before = delayed(m, slots.before, 1, "before")
-        past = [Signal(compared, name=f"past_{k}", reset_less=True) for k in range(reach)]
-        values = [Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(across)]
-        likes = [Signal(reach, name=f"like_{k}", reset_less=True) for k in range(reach + 1)]
-        passing = [Signal(kept_along, name=f"passing_{k}", reset_less=True) for k in range(reach + 1)]
-        found = Cat(self._alike(colours[0], past[k]) & before[k] for k in range(reach))
+        past = [Signal(compared, name=f"past_{k}", reset_less=True) for k in range(columns)]
+        values = [
+            Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(2 * columns + 1)
+        ]
+        likes = [Signal(taps, name=f"like_{k}", reset_less=True) for k in range(columns + 1)]
+        passing = [Signal(kept_along, name=f"passing_{k}", reset_less=True) for k in range(columns + 1)]
+        found = Cat(
+            self._alike(colours[0], past[k]) & before[k] for k in range(spacing - 1, taps * spacing, spacing)
+        )
         with m.If(slot[1]):
             m.d.sync += [
                 Cat(*past).eq(Cat(colours[0], *past)),
@@ -104,10 +113,11 @@ class MaskedMedians(wiring.Component):
                 Cat(*likes).eq(Cat(found, *likes)),
                 Cat(Value.cast(p) for p in passing).eq(Cat(along, *(Value.cast(p) for p in passing))),
             ]
-        row = Cat(*values, self._kept(likes))
+        row_values = [values[columns + spacing * k] for k in range(-taps, taps + 1)]
+        row_keep = self._kept([likes[columns + spacing * k] for k in range(-taps, 1)])
 
         # The same pixel, compared with those above it.
-        m.submodules.colours = above = RowStack([(compared, reach)], self._max_width, clocks)
+        m.submodules.colours = above = RowStack([(compared, rows)], self._max_width, clocks)
         m.d.comb += [
             above.valid.eq(travelling(m, slots.stores, 1, "stores")[-1]),
             above.place.eq(delayed(m, slots.x, 1, "x")),
@@ -115,22 +125,22 @@ class MaskedMedians(wiring.Component):
         ]
         compares = 1 + above.latency
         over = delayed(m, slots.above, compares, "above")
-        down = Cat(self._alike(colours[above.latency], above.o["0"][k]) & over[k] for k in range(reach))
-        downs = [Signal(reach, name=f"down_{k}", reset_less=True) for k in range(reach + 1)]
+        down = Cat(self._alike(colours[above.latency], above.o["0"][k]) & over[k] for k in range(rows))
+        downs = [Signal(rows, name=f"down_{k}", reset_less=True) for k in range(columns + 1)]
         with m.If(slot[compares]):
             m.d.sync += Cat(*downs).eq(Cat(down, *downs))
 
         # The row's median goes on top of its column, together with the pixel's answers.
-        centre = Cat(values[reach], Value.cast(passing[reach]))
+        centre = Cat(values[columns], Value.cast(passing[columns]))
         centre = waiting(m, centre, put - 2, "centre")
         median_of_row = Signal(self._value_bits)
         middle = delayed(m, median_of_row, put - self._row_ready, "middle")
         if self._holes:
             passed = data.View(kept_along, centre[self._value_bits :])
             middle = Mux(is_measured(passed.code), middle, centre[: self._value_bits])
-        tag = Cat(waiting(m, downs[reach], put - compares - 1, "tag"), centre[self._value_bits :])
-        m.submodules.rows = rows = RowStack(
-            [(self._value_bits, 2 * reach), (len(tag), reach)], self._max_width, clocks
+        tag = Cat(waiting(m, downs[columns], put - compares - 1, "tag"), centre[self._value_bits :])
+        m.submodules.rows = stack = RowStack(
+            [(self._value_bits, 2 * rows), (len(tag), rows)], self._max_width, clocks
         )
         looks_up = put - RowStack.ahead
         entering = travelling(m, slots.enters, looks_up, "enters")[-1]
@@ -139,30 +149,35 @@ class MaskedMedians(wiring.Component):
         with m.If(entering):
             m.d.sync += at.eq(Mux(line_ends, 0, at + 1))
         m.d.comb += [
-            rows.valid.eq(entering),
-            rows.place.eq(at),
-            rows.items["0"].eq(middle),
-            rows.items["1"].eq(tag),
+            stack.valid.eq(entering),
+            stack.place.eq(at),
+            stack.items["0"].eq(middle),
+            stack.items["1"].eq(tag),
         ]
-        wait = rows.latency - RowStack.ahead
-        column = [delayed(m, middle, wait, "newest"), *rows.o["0"]]
-        tags = [delayed(m, tag, wait, "newest_tag"), *rows.o["1"]]
+        wait = stack.latency - RowStack.ahead
+        column = [delayed(m, middle, wait, "newest"), *stack.o["0"]]
+        tags = [delayed(m, tag, wait, "newest_tag"), *stack.o["1"]]
         column_there = put + wait
-        down_column = Cat(*column, self._kept([t[:reach] for t in tags]))
+        column_keep = self._kept([t[:rows] for t in tags])
 
         # A register before the column's median, because all tags are in one word.
-        size = across * (self._value_bits + 1)
         if self._shared:
-            m.submodules.medians = last = LowerMedian(across, self._value_bits)
-            given = Signal(size, reset_less=True)
+            samples = max(len(row_values), len(column))
+            none = Const(0, self._value_bits)  # a sample that is not kept, where the other median has more
+            row, down_column = (
+                Cat(*those, *[none] * (samples - len(those)), keep, Const(0, samples - len(those)))
+                for those, keep in ((row_values, row_keep), (column, column_keep))
+            )
+            m.submodules.medians = last = LowerMedian(samples, self._value_bits)
+            given = Signal(samples * (self._value_bits + 1), reset_less=True)
             m.d.sync += given.eq(Mux(slot[2], row, down_column))
             m.d.comb += median_of_row.eq(last.o)
         else:
-            m.submodules.along_row = first = LowerMedian(across, self._value_bits)
-            m.submodules.down_column = last = LowerMedian(across, self._value_bits)
-            given = delayed(m, down_column, 1, "given")
+            m.submodules.along_row = first = LowerMedian(len(row_values), self._value_bits)
+            m.submodules.down_column = last = LowerMedian(len(column), self._value_bits)
+            given = delayed(m, Cat(*column, column_keep), 1, "given")
             m.d.comb += [
-                Cat(Value.cast(first.i), first.keep).eq(row),
+                Cat(Value.cast(first.i), first.keep).eq(Cat(*row_values, row_keep)),
                 median_of_row.eq(first.o),
             ]
         m.d.comb += Cat(Value.cast(last.i), last.keep).eq(given)
@@ -170,11 +185,11 @@ class MaskedMedians(wiring.Component):
         latency = self._after_slot()
         layout = post_layout(self._value_bits, 0)
         m.submodules.queue = queue = ResultQueue(layout, -(-latency // clocks) + 1)
-        rest = data.View(kept_along, waiting(m, tags[reach][reach:], latency - column_there, "rest"))
+        rest = data.View(kept_along, waiting(m, tags[rows][rows:], latency - column_there, "rest"))
         result: Value = last.o
         if self._holes:
             result = Mux(
-                is_measured(rest.code), result, waiting(m, column[reach], latency - column_there, "whole")
+                is_measured(rest.code), result, waiting(m, column[rows], latency - column_there, "whole")
             )
         fresh = Signal(init=1)
         puts = travelling(m, slots.emits, latency, "emits")[-1]
@@ -202,7 +217,7 @@ class MaskedMedians(wiring.Component):
     @property
     def latency(self) -> int:
         """Clocks from a line's last pixel to when the line's last result can be in the queue."""
-        return self._reach * self.clocks + self._after_slot()
+        return self._columns * self.clocks + self._after_slot()
 
     @property
     def _shared(self) -> bool:
@@ -234,8 +249,8 @@ class MaskedMedians(wiring.Component):
     def _kept(self, likes: list[Value]) -> Value:
         """Which of the samples, newest first, are like the one in the middle.
 
-        A later pixel's answers are about those before it.
+        ``likes`` are the answers of the samples up to the middle, each about those before it.
         """
-        reach = self._reach
+        reach = len(likes) - 1
         newer = [likes[k][reach - 1 - k] for k in range(reach)]
         return Cat(*newer, 1, likes[reach])

@@ -11,14 +11,15 @@ from softdepth.hdl.memory.window import MARKERS
 
 
 class PostSlots(wiring.Component):
-    """Goes through a frame pixel by pixel, then ``reach`` slots past each line and ``reach`` lines below.
+    """Goes through a frame pixel by pixel, then ``columns`` slots past each line and ``rows`` lines below.
 
-    A slot is a clock in which a pixel of the frame, or one beyond it, enters. The pixel ``reach`` slots
-    before it is then in the middle of its row, and the one ``reach`` rows above that in the middle of its
+    A slot is a clock in which a pixel of the frame, or one beyond it, enters. The pixel ``columns`` slots
+    before it is then in the middle of its row, and the one ``rows`` rows above that in the middle of its
     column.
 
     Parameters
     ----------
+    rows, columns : reach of the windows.
     max_width : pixels of the longest line.
     clocks : from a slot to the next, at least.
 
@@ -28,15 +29,15 @@ class PostSlots(wiring.Component):
     credit : a slot may begin.
     slot : a slot begins.
     stores, x : its pixel lies in one of the frame's columns; which one.
-    before, above : which of the ``reach`` pixels before it, nearest first, lie in its line, and which of
-        those above it lie in the frame. Above a pixel below the frame, none does.
+    before, above : which of the ``columns`` pixels before it, nearest first, lie in its line, and which of
+        the ``rows`` above it lie in the frame. Above a pixel below the frame, none does.
     enters, o_eol : the middle of the row is a pixel of the frame or below it; it is its line's last.
     emits, o_eof, o_damaged : the middle of the column is a pixel of the frame; it is the frame's last; the
         frame was mended so far.
     """
 
-    def __init__(self, reach: int, max_width: int, clocks: int) -> None:
-        self._reach, self._max_width, self._clocks = reach, max_width, clocks
+    def __init__(self, rows: int, columns: int, max_width: int, clocks: int) -> None:
+        self._rows, self._columns, self._max_width, self._clocks = rows, columns, max_width, clocks
         super().__init__(
             {
                 "valid": In(1),
@@ -46,8 +47,8 @@ class PostSlots(wiring.Component):
                 "slot": Out(1),
                 "stores": Out(1),
                 "x": Out(range(max_width)),
-                "before": Out(reach),
-                "above": Out(reach),
+                "before": Out(columns),
+                "above": Out(rows),
                 "enters": Out(1),
                 "emits": Out(1),
                 "o_eol": Out(1),
@@ -58,12 +59,12 @@ class PostSlots(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        reach = self._reach
-        below = Countdown(m, reach, "below")  # rows below the frame, this one included
-        after = Countdown(m, reach, "after")  # slots behind the line
+        rows, columns = self._rows, self._columns
+        below = Countdown(m, rows, "below")  # rows below the frame, this one included
+        after = Countdown(m, columns, "after")  # slots behind the line
         column = LineColumn(m, self._max_width)
-        beside = Signal(reach)  # a bit for each pixel of the line so far
-        rows = Signal(reach)  # and for each row
+        beside = Signal(columns)  # a bit for each pixel of the line so far
+        over = Signal(rows)  # and for each row of the frame
         damaged = Signal()
         flushing, trailing = below.some, after.some
         outside = Signal()
@@ -77,14 +78,14 @@ class PostSlots(wiring.Component):
         )
         starts = Signal()
         last = Signal()
-        now = Signal(reach)
+        now = Signal(rows)
         m.d.comb += [
             outside.eq(flushing | trailing),
             self.slot.eq(pace.slot),
             self.stores.eq(self.slot & ~trailing),
             starts.eq(~outside & self.sof),
             last.eq(Mux(outside, column.is_last, self.eol)),
-            now.eq(Mux(starts, 0, rows)),
+            now.eq(Mux(starts, 0, over)),
             self.x.eq(column.x),
             self.before.eq(beside),
             self.above.eq(Mux(outside, 0, now)),
@@ -96,22 +97,22 @@ class PostSlots(wiring.Component):
                 column.step(last)
                 m.d.sync += [
                     beside.eq(Mux(last, 0, Cat(1, beside))),
-                    rows.eq(Mux(last, Cat(1, now), now)),
+                    over.eq(Mux(last, Cat(1, now), now)),
                 ]
                 with m.If(last):
-                    after.start(reach)
+                    after.start(columns)
                 with m.If(~flushing):
                     m.d.sync += damaged.eq(self.damaged | (damaged & ~starts))
                     with m.If(self.eof):
-                        below.start(reach)
+                        below.start(rows)
                 with m.Elif(last):
                     below.step()
 
         # What is known of each pixel, kept until it is in the middle of its row.
-        enters = Signal(reach)
-        emits = Signal(reach)
-        eol = Signal(reach, reset_less=True)
-        eof = Signal(reach, reset_less=True)
+        enters = Signal(columns)
+        emits = Signal(columns)
+        eol = Signal(columns, reset_less=True)
+        eof = Signal(columns, reset_less=True)
         with m.If(self.slot):
             m.d.sync += [
                 enters.eq(Cat(~trailing, enters)),

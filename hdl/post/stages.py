@@ -1,5 +1,6 @@
 """The stages behind the winners, in their order."""
 
+from softdepth.hdl.arithmetic.colour import coarse_like
 from softdepth.hdl.costs.comparison import LIKE_BITS
 from softdepth.hdl.front.overlap import from_zero
 from softdepth.hdl.memory.folded_memory import clocks_of
@@ -19,7 +20,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
     """
     config = from_zero(config)
     post = config.post
-    size = (config.result_bits, config.pixel.size)
+    size = (config.result_bits, config.colour_size)
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
     if post.island:
         stages["island"] = island_of(config)
@@ -34,29 +35,35 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
 
 def island_of(config: Config) -> Island:
     """The stage of the island test."""
-    size = (config.result_bits, config.pixel.size, config.max_width)
-    return Island(*size, config.post.island, clocks=clocks_of(config.steps))
+    post = config.post
+    size = (config.result_bits, config.colour_size, config.max_width)
+    reach = {"rows": post.island_rows // 2, "columns": post.island_columns // 2}
+    return Island(*size, post.island, **reach, clocks=clocks_of(config.steps))
 
 
 def median_of(config: Config) -> Median:
     """The stage of the median."""
     config = from_zero(config)
     reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
-    size = (config.result_bits, config.pixel.size, config.max_width)
+    size = (config.result_bits, config.colour_size, config.max_width)
     return Median(*size, **reach, holes=not config.post.fill, clocks=clocks_of(config.steps))
 
 
 def masked_medians_of(config: Config) -> MaskedMedians:
     """The stage of both masked medians."""
     config = from_zero(config)
-    post, pixel = config.post, config.pixel
+    post, pixel, kept = config.post, config.pixel, config.colour_bits
+    rows, columns = post.masked_reach
+    like = threshold("like", post.like) << (pixel.bits - LIKE_BITS)
     return MaskedMedians(
         config.result_bits,
-        pixel.size,
+        config.colour_size,
         pixel.channels,
         config.max_width,
-        reach=post.masked_median,
-        like=threshold("like", post.like) << (pixel.bits - LIKE_BITS),
+        rows=rows,
+        columns=columns,
+        spacing=post.masked_step,
+        like=coarse_like(like, pixel.bits - kept),
         holes=not post.fill,
         clocks=min(config.steps, 2),
     )

@@ -12,5 +12,5 @@ from softdepth.spec.config import Config
 def winners_of(config: Config, costs: BandCosts | WholeCosts) -> BandWinners | WholeWinners:
     """A component with `winner_ports` that match `costs`, and the stream ``o`` of results."""
     if isinstance(costs, WholeCosts):
-        return WholeWinners(from_zero(config), costs.layout, config.pixel.size, costs.latency)
+        return WholeWinners(from_zero(config), costs.layout, config.colour_size, costs.latency)
     return BandWinners(config, fraction_layout(config), ahead=costs.latency, tags_ahead=costs.tags_ahead)

@@ -15,7 +15,7 @@ from softdepth.spec.compensation import LITERAL_INPUT, Compensation
 from softdepth.spec.criteria import AnyCriterion, Census, Criterion, Gradient, Sad
 from softdepth.spec.operators import REGISTRY
 from softdepth.spec.pixel import PixelFormat
-from softdepth.spec.post import Post
+from softdepth.spec.post import LATER, Post
 from softdepth.spec.presets import PRESETS
 from softdepth.spec.ranges import MULTIPLIER_BITS, QUOTIENT_BITS
 from softdepth.spec.rules import Firing, RuleBaseName
@@ -111,6 +111,9 @@ class Config(Settings):
             criterion.pop(stored_rows.KEY, None)
             if criterion.get("running_sums"):  # as it always was: hashes of earlier cores stay
                 del criterion["running_sums"]
+        for key in LATER:  # likewise
+            if data["post"][key] == type(self.post).model_fields[key].default:
+                del data["post"][key]
         return data | {stored_rows.KEY: self.stored_rows}
 
     # -- derived: parallelism and ranges ---------------------------------------------------------
@@ -166,6 +169,16 @@ class Config(Settings):
     def signed(self) -> bool:
         """A result may be negative."""
         return self.min_disparity < 0
+
+    @property
+    def colour_bits(self) -> int:
+        """Bits of each channel that the stages after the winners compare."""
+        return min(self.post.colour_bits, self.pixel.bits)
+
+    @property
+    def colour_size(self) -> int:
+        """Bits of the colour that travels with a result for them."""
+        return self.pixel.channels * self.colour_bits
 
     @property
     def code_bits(self) -> int:

@@ -42,10 +42,20 @@ PRESETS: dict[str, dict[str, Any]] = {
         "criteria": [{"kind": "census", "like": 20}, {"kind": "gradient"}],
         "post": {**_ROBUST, "like": 16},
     },
+    # A gradient alone and few rows of everything, as small parts have little memory.
     "robust-small": {
         "cost": "sum",
-        "criteria": [{"kind": "gradient", "rows": 9, "columns": 9, "running_sums": False}],
-        "post": _ROBUST,
+        "criteria": [{"kind": "gradient", "rows": 7, "columns": 13, "running_sums": False}],
+        "post": {
+            **_ROBUST,
+            "island_rows": 3,
+            "island_columns": 9,
+            "median": 0,
+            "masked_median": 12,
+            "masked_spacing": 2,
+            "masked_rows": 7,
+            "colour_bits": 5,
+        },
     },
 }
 """What each preset changes in the defaults: the paper's nest, the same in less logic, a small

@@ -50,7 +50,7 @@ _OPERATORS = [
 _ROBUST = [
     Selection(preset="robust", operator=SUM, lanes=32),
     Selection(preset="robust-small", operator=SUM, lanes=32, device="LFE5U-45F"),
-    Selection(preset="robust-small", operator=SUM, lanes=8, device="LFE5U-25F", width=640),
+    Selection(preset="robust-small", operator=SUM, lanes=16, device="LFE5U-25F"),
 ]
 
 RECOMMENDED = (*_PAPERS, *_OPERATORS, *_ROBUST)

@@ -44,10 +44,12 @@ class Loops:
             total += weight * (self.at(view, y + dy, x + 1) - self.at(view, y + dy, x - 1))
         return clip(total, -cap, cap)
 
-    def alike(self, y, x, y2, x2, like):
+    def alike(self, y, x, y2, x2, like, bits=8):
         if not (0 <= y2 < self.h and 0 <= x2 < self.w):
             return False
-        return all(abs(a - b) < like for a, b in zip(self.colour[y][x], self.colour[y2][x2], strict=True))
+        unit = 2 ** max(8 - bits, 0)
+        pairs = zip(self.colour[y][x], self.colour[y2][x2], strict=True)
+        return all(unit * abs(a // unit - b // unit) < like for a, b in pairs)
 
     def inside(self, y, x):
         return 0 <= y < self.h and 0 <= x < self.w
@@ -114,8 +116,8 @@ class Loops:
         for y, x in sorted(valid):
             around = [
                 (clip(y + i, 0, self.h - 1), clip(x + j, 0, self.w - 1))
-                for i in range(-2, 3)
-                for j in range(-2, 3)
+                for i in range(-(post.island_rows // 2), post.island_rows // 2 + 1)
+                for j in range(-(post.island_columns // 2), post.island_columns // 2 + 1)
             ]
             if sum(p in valid for p in around) < post.island:
                 code[y, x] = ISLAND
@@ -156,9 +158,11 @@ class Loops:
 
     def masked(self, p, value, taking, dy, dx):
         y, x = p
-        reach = self.c.post.masked_median
-        places = [(y + k * dy, x + k * dx) for k in range(-reach, reach + 1)]
-        places = [q for q in places if self.alike(y, x, *q, self.c.post.like) and q in taking]
+        post = self.c.post
+        reach = post.masked_median if dx else min(post.masked_median, post.masked_rows)
+        steps = [k for k in range(-reach, reach + 1) if not dx or k % min(post.masked_spacing, reach) == 0]
+        places = [(y + k * dy, x + k * dx) for k in steps]
+        places = [q for q in places if self.alike(y, x, *q, post.like, post.colour_bits) and q in taking]
         found = sorted(value[q] for q in places)
         return found[(len(found) - 1) // 2]
 
@@ -183,6 +187,12 @@ def frames(height, width, seed):
     return left, right
 
 
+TEXT = [
+    *("criteria.0.rows=9", "criteria.0.columns=9", "post.island_rows=5", "post.island_columns=5"),
+    *("post.median=5", "post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=9"),
+    "post.colour_bits=8",
+]
+"""`robust-small` with the windows and filters of `robust`."""
 CASES = {
     "robust": ("robust", []),
     "small": ("robust-small", []),
@@ -196,6 +206,9 @@ CASES = {
             "criteria.1.rows=3", "criteria.1.columns=7", "criteria.1.truncation=40", "post.masked_median=2",
         ],
     ),
+    "small of the text": ("robust-small", TEXT),
+    "coarse colours": ("robust", ["post.colour_bits=3", "post.like=40", "post.island_columns=3"]),
+    "far apart": ("robust-gray", ["post.masked_median=6", "post.masked_spacing=3", "post.masked_rows=1"]),
     "no support": ("robust", ["criteria.0.taps=1", "post.median=0"]),
 }  # fmt: skip
 

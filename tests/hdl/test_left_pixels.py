@@ -30,17 +30,19 @@ WHOLE = [
     "post.fill=false",
     "post.median=0",
 ]
+FINE = "post.colour_bits=8"
 CORES: dict[str, tuple[str, Config]] = {
     "windows": ("guard", Config.preset("sad").override(SIZE)),
-    "results": ("results", Config.preset("robust-small").override([*WHOLE, "post.masked_median=0"])),
+    "results": ("results", Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=0"])),
     "medians": (
         "medians",
-        Config.preset("robust-small").override([*WHOLE, "post.masked_median=1", "lanes=2"]),
+        Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=1", "lanes=2"]),
     ),
     "overlap": (
         "guard",
-        Config.preset("robust-small").override([*WHOLE, "post.masked_median=1", "min_disparity=-2"]),
+        Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=1", "min_disparity=-2"]),
     ),
+    "coarse": ("guard", Config.preset("robust-small").override([*WHOLE, "post.masked_median=1"])),
 }
 FRAMES = [textured(6, 16, 1), textured(4, 11, 2), textured(2, 16, 3)]
 PAYLOADS = [pixel for pair in FRAMES for pixel in pack_frame(*pair).tolist()]

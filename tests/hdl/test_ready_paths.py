@@ -131,10 +131,10 @@ BLOCKS: dict[str, Callable[[], Component]] = {
     "frame ends": lambda: FrameEnds(small("whole frame")),
     "front": lambda: Front(small("band")),
     "descriptors": lambda: Front(small("whole frame")),
-    "island": lambda: Island(1, 1, 8, 5),
+    "island": lambda: Island(1, 1, 8, 5, rows=2, columns=2),
     "fill": lambda: Fill(1, 1, 8),
     "median": lambda: Median(1, 1, 8, rows=2, columns=2),
-    "masked medians": lambda: MaskedMedians(1, 3, 3, 8, reach=2, like=1),
+    "masked medians": lambda: MaskedMedians(1, 3, 3, 8, rows=2, columns=2, like=1),
     "result queue": lambda: ResultQueue(data.StructLayout({"word": 2}), 3),
 }
 

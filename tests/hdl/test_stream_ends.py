@@ -70,11 +70,11 @@ BLOCKS: dict[str, tuple[Callable[[], Component], type]] = {
     "front": (lambda: Front(Config.preset("sad").override(SMALL)), ItemQueue),
     "descriptors": (lambda: Front(Config.preset("robust").override(SMALL)), ResultQueue),
     "winners": (winners, ResultQueue),
-    "island": (lambda: Island(1, 1, 8, 5), ResultQueue),
+    "island": (lambda: Island(1, 1, 8, 5, rows=2, columns=2), ResultQueue),
     "fill": (lambda: Fill(1, 1, 8), ItemQueue),
     "packed queue": (lambda: PackedQueue(4, 40), ResultQueue),
     "median": (lambda: Median(1, 1, 8, rows=2, columns=2), ResultQueue),
-    "masked medians": (lambda: MaskedMedians(1, 3, 3, 8, reach=2, like=1), ResultQueue),
+    "masked medians": (lambda: MaskedMedians(1, 3, 3, 8, rows=2, columns=2, like=1), ResultQueue),
 }
 
 

@@ -21,7 +21,6 @@ from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
-from softdepth.spec.post import ISLAND_REACH
 from tests.support.claims import Claim
 from tests.support.mutations import mutated
 from tests.support.proofs import some_clocks
@@ -36,9 +35,11 @@ SMALL = {"max_width": 8, "max_height": 8}
 CORE = config(**BAND, **SMALL)
 """The smallest core: two candidates by 3x3 SADs, side by side."""
 
+REACH = 2
+"""Rows and columns that `Island` looks at on either side."""
 BLOCKS: dict[str, Callable[[], Any]] = {
     "fill": lambda: Fill(1, 1, 4),
-    "island": lambda: Island(1, 1, 4, 5),
+    "island": lambda: Island(1, 1, 4, 5, rows=REACH, columns=REACH),
     "front": lambda: Front(CORE),
     "core": lambda: StereoCore(CORE),
 }
@@ -58,8 +59,8 @@ QUIET = {
     # Without a measurement, a line's results leave one after the other once its end has come through.
     "fill": Fill.latency + LINE,
     # Behind the last pixel its column is repeated, and the rows below, at both ends, too.
-    "island": ISLAND_REACH
-    + ISLAND_REACH * (ISLAND_LINE + 2 * ISLAND_REACH)
+    "island": REACH
+    + REACH * (ISLAND_LINE + 2 * REACH)
     + Window.latency_of(1)
     + Island.latency
     + QUEUE_LATENCY,

@@ -62,11 +62,11 @@ def with_post(raw: Raw, image: Image, post: Post) -> NDArray[np.float32]:
     """In pixels, after our island test, filling and medians; `image` is the left view."""
     valid = raw >= 0
     values = np.maximum(raw, 0).astype(np.uint16)
-    valid &= ~on_an_island(valid, post.island)
+    valid &= ~on_an_island(valid, post.island, post.island_rows, post.island_columns)
     values, everywhere = fill(values, valid), np.ones(raw.shape, bool)
     if post.median:
         values = median(values, everywhere)
     if post.masked_median:
-        for direction in (along_row, down_column):
-            values = direction(values, everywhere, image, post.masked_median, post.like)
+        for direction, offsets in ((along_row, post.masked_along), (down_column, post.masked_down)):
+            values = direction(values, everywhere, image, offsets, post.like)
     return values.astype(np.float32) / np.float32(UNITS)

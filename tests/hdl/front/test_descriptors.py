@@ -22,8 +22,8 @@ def luma(pixel: NDArray[np.int64]) -> int:
     return int(pixel[0] + 2 * pixel[1] + pixel[2]) >> 2
 
 
-@pytest.mark.parametrize(("clocks", "rates"), [(1, (1.0, 1.0)), (2, (0.6, 0.4))])
-def test_descriptors(clocks: int, rates: tuple[float, float]) -> None:
+@pytest.mark.parametrize(("clocks", "kept", "rates"), [(1, 8, (1.0, 1.0)), (2, 5, (0.6, 0.4))])
+def test_descriptors(clocks: int, kept: int, rates: tuple[float, float]) -> None:
     rng = np.random.default_rng(1)
     contrasts = (256, 20, 256, 40)
     frames = [rng.integers(0, c, (2, *size, 3)) for size, c in zip(SIZES, contrasts, strict=True)]
@@ -38,7 +38,7 @@ def test_descriptors(clocks: int, rates: tuple[float, float]) -> None:
                 sent.append(item.as_value().value)
     rows = {"census": (0, 9), "narrow": (2, 7), "wide": (1,)}
     known = (CENSUS, replace(gradient(31), name="narrow"), replace(gradient(100), name="wide"))
-    dut = Descriptors(3, 8, 16, descriptors=known, rows=rows, after=AFTER, clocks=clocks)
+    dut = Descriptors(3, 8, 16, colour_bits=kept, descriptors=known, rows=rows, after=AFTER, clocks=clocks)
     found = iter(stream_through(dut, sent, i_rate=rates[0], o_rate=rates[1]).payloads)
     for frame in frames:
         _, height, width, _ = frame.shape
@@ -69,7 +69,8 @@ def test_descriptors(clocks: int, rates: tuple[float, float]) -> None:
                             sobel = sides[0] + 2 * sides[1] + sides[2]
                             assert got[name][field][k] == min(max(sobel, -cap), cap), (y, x, above)
             if y - AFTER >= 0:
-                assert got.colour == sum(int(v) << 8 * k for k, v in enumerate(frame[0, y - AFTER, x]))
+                pixel = frame[0, y - AFTER, x]
+                assert got.colour == sum(int(v) >> 8 - kept << kept * k for k, v in enumerate(pixel))
             expected = markers(y, x, height, width) if y < height else {"eol": x == width - 1}
             for marker in ("sof", "eol", "eof"):
                 assert got[marker] == expected.get(marker, False), (y, x, marker)

@@ -32,8 +32,10 @@ def frames(seed: int) -> list[Fields]:
 
 
 @pytest.mark.parametrize("stalls", STALLS)
-@pytest.mark.parametrize("least", [8, 14])
-def test_island(least: int, stalls: dict[str, float]) -> None:
+@pytest.mark.parametrize(
+    ("least", "rows", "columns"), [(8, 2, 2), (14, 2, 2), (8, 1, 4), (3, 0, 2), (2, 1, 0)]
+)
+def test_island(least: int, rows: int, columns: int, stalls: dict[str, float]) -> None:
     sent = frames(1)
     expected = []
     for frame in sent:
@@ -42,15 +44,16 @@ def test_island(least: int, stalls: dict[str, float]) -> None:
         for y in range(height):
             for x in range(width):
                 count = 0
-                for dy in range(-2, 3):
-                    for dx in range(-2, 3):
+                for dy in range(-rows, rows + 1):
+                    for dx in range(-columns, columns + 1):
                         near = min(max(y + dy, 0), height - 1), min(max(x + dx, 0), width - 1)
                         count += frame["code"][near] < 2
                 if frame["code"][y, x] < 2 and count < least:
                     want["value"][y, x], want["code"][y, x], want["confidence"][y, x] = 0, 5, 0
         expected.append(want)
     assert any((want["code"] != frame["code"]).any() for want, frame in zip(expected, sent, strict=True))
-    check(through(Island(VALUE_BITS, COLOUR_BITS, MAX_WIDTH, least), sent, **stalls), expected)
+    dut = Island(VALUE_BITS, COLOUR_BITS, MAX_WIDTH, least, rows=rows, columns=columns)
+    check(through(dut, sent, **stalls), expected)
 
 
 @pytest.mark.parametrize("stalls", STALLS)
@@ -85,22 +88,37 @@ def test_median(rows: int, columns: int, holes: bool, stalls: dict[str, float]) 
 
 @pytest.mark.parametrize("stalls", STALLS)
 @pytest.mark.parametrize(
-    ("reach", "like", "holes", "clocks"),
-    [(9, 4, False, 2), (2, 4, True, 1), (3, 3, True, 2), (1, 4, False, 1)],
+    ("rows", "columns", "spacing", "like", "holes", "clocks"),
+    [
+        (9, 9, 1, 4, False, 2),
+        (2, 2, 1, 4, True, 1),
+        (3, 3, 1, 3, True, 2),
+        (1, 1, 1, 4, False, 1),
+        (3, 8, 2, 4, False, 2),
+        (4, 3, 2, 4, True, 1),
+        (1, 5, 1, 4, True, 2),
+        (5, 7, 3, 3, False, 1),
+    ],
 )
-def test_masked_medians(reach: int, like: int, holes: bool, clocks: int, stalls: dict[str, float]) -> None:
+def test_masked_medians(
+    rows: int, columns: int, spacing: int, like: int, holes: bool, clocks: int, stalls: dict[str, float]
+) -> None:
     sent = frames(4)
     expected = []
     for frame in sent:
-        along = medians(frame, 0, reach, like, holes)
-        expected.append(medians(along, reach, 0, like, holes) | {"colour": 0 * frame["colour"]})
+        along = medians(frame, 0, columns, like, holes, spacing)
+        expected.append(medians(along, rows, 0, like, holes) | {"colour": 0 * frame["colour"]})
     dut = MaskedMedians(
-        VALUE_BITS, COLOUR_BITS, CHANNELS, MAX_WIDTH, reach=reach, like=like, holes=holes, clocks=clocks
+        *(VALUE_BITS, COLOUR_BITS, CHANNELS, MAX_WIDTH),
+        **{"rows": rows, "columns": columns, "spacing": spacing},
+        **{"like": like, "holes": holes, "clocks": clocks},
     )
     check(through(dut, sent, patience=1000, **stalls), expected)
 
 
-def medians(frame: Fields, rows: int, columns: int, like: int | None, holes: bool) -> Fields:
+def medians(
+    frame: Fields, rows: int, columns: int, like: int | None, holes: bool, spacing: int = 1
+) -> Fields:
     """A frame whose values are medians; only with ``like`` what lies outside is left out."""
     height, width = frame["value"].shape
     want = {name: values.copy() for name, values in frame.items()}
@@ -109,7 +127,7 @@ def medians(frame: Fields, rows: int, columns: int, like: int | None, holes: boo
         for x in range(width):
             kept = []
             for near_y in range(y - rows, y + rows + 1):
-                for near_x in range(x - columns, x + columns + 1):
+                for near_x in range(x - columns // spacing * spacing, x + columns + 1, spacing):
                     inside = 0 <= near_y < height and 0 <= near_x < width
                     ny, nx = min(max(near_y, 0), height - 1), min(max(near_x, 0), width - 1)
                     is_like = like is None or (

@@ -85,9 +85,9 @@ def _ulx3s(size: int, preset: str, *overrides: str) -> Board:
 
 
 def _boards() -> Iterator[Board]:
-    yield _ulx3s(12, "lite", "lanes=8", "max_width=1280", "stored_rows=0")
-    yield _ulx3s(25, "lite", "lanes=8", "max_width=1280", "stored_rows=0")
-    yield _ulx3s(45, "compact", "lanes=8", "max_width=1280", "stored_rows=0")
+    yield _ulx3s(12, "robust-small", "lanes=16", "max_width=640")
+    yield _ulx3s(25, "robust-small", "lanes=16", "max_width=640")
+    yield _ulx3s(45, "robust-small", "lanes=16", "max_width=1280")
     yield _ulx3s(85, "robust", "lanes=16", "max_width=1280")
     yield Board(
         name="icebreaker",

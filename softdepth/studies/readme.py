@@ -45,19 +45,19 @@ def renew(text: str, report: Report) -> str:
 
 
 def area(utilization: str) -> str:
-    """The fastest core of each preset, with MEAN where it has an operator, among ``utilization.json``'s rows.
+    """The fastest core of each preset and part among ``utilization.json``'s rows.
 
-    Where a row has several seeds, it is the one with the median clock.
+    Where it has an operator, that with MEAN; where a row has several seeds, that of the median clock.
     """
     from softdepth.studies.utilization import SUM, Row
     from softdepth.studies.utilization_page import median_rows
 
     rows = [Row.model_validate(row) for row in json.loads(utilization)["rows"]]
-    best: dict[str, Row] = {}
+    best: dict[tuple[str, str], Row] = {}
     for row in median_rows(rows):
-        known = best.get(row.preset)
+        known = best.get((row.preset, row.device))
         if row.operator in ("mean", SUM) and (known is None or row.mde_s > known.mde_s):
-            best[row.preset] = row
+            best[row.preset, row.device] = row
     return render("softdepth.studies", "area.md", rows=list(best.values()))
 
 

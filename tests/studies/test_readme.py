@@ -99,16 +99,18 @@ def test_the_projects_readme_shows_measured_figures(project):
     assert "**0 of 370,500 pixels** differ" in between
 
 
-def test_the_area_is_that_of_the_fastest_core_of_each_preset():
+def test_the_area_is_that_of_the_fastest_core_of_each_preset_and_part():
     fast = {**ROW, "lanes": 32, "lut4": 31000, "mde_s": 3840.0, "mpixel_s": 60.0, "lut4_per_lane": 968.75}
     other = {**fast, "operator": "min", "mde_s": 9999.0}
     plain = {**ROW, "preset": "sad", "lut4": 900}
-    table = readme.area(json.dumps({"rows": [ROW, fast, other, plain]})).splitlines()
-    assert len(table) == 4
+    smaller = {**plain, "device": "LFE5U-25F-6", "lut4": 800}
+    table = readme.area(json.dumps({"rows": [ROW, fast, other, plain, smaller]})).splitlines()
+    assert len(table) == 5
     assert table[2].startswith(
         "| `paper`, 64 disparities, 32 lanes, 1280 wide | LFE5U-85F-6 | 31,000 (969) |"
     )
     assert table[3].startswith("| `sad`")
+    assert "| LFE5U-25F-6 | 800 (" in table[4]
 
 
 def test_the_projects_table_of_cores_is_what_the_measurements_give(project):

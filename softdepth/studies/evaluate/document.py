@@ -41,6 +41,7 @@ class Evaluation(BaseModel):
     presets : our configurations, by name, complete.
     hashes : what names them.
     fuzzy : the names of those that were added to compare costs.
+    undone : of those that were added to tell what `robust-small` goes without.
     lanes : what a lane of these takes, of those that were measured.
     methods : every method's name and title, in the order of the tables.
     ways : the ways in which pairs were degraded, with ``clean`` first.
@@ -50,6 +51,7 @@ class Evaluation(BaseModel):
     presets: dict[str, dict[str, Any]]
     hashes: dict[str, str]
     fuzzy: list[str]
+    undone: list[str] = []
     lanes: dict[str, LaneFigures] = {}
     methods: dict[str, str]
     ways: list[str]

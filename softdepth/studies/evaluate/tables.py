@@ -6,6 +6,8 @@ from softdepth.studies.evaluate.degrade import WAYS
 from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.lanes import CORE
 
+SMALL = "robust-small"
+"""The preset whose measures are undone one by one."""
 RIVALS = {"hh": "HH", "sgbm": "SGBM"}
 """Whose errors ours are divided by."""
 
@@ -31,6 +33,8 @@ def tables(evaluation: Evaluation) -> list[Table]:
         found.append(by_way(evaluation))
     if evaluation.fuzzy:
         found.append(fuzzy(evaluation))
+    if evaluation.undone:
+        found.append(small(evaluation))
     if any(scene.sparsification for scene in evaluation.scenes):
         found.append(confidence(evaluation))
     found.append(by_scene(evaluation))
@@ -117,6 +121,24 @@ def fuzzy(evaluation: Evaluation) -> Table:
     return Table("Fuzzy or not", text, rows)
 
 
+def small(evaluation: Evaluation) -> Table:
+    """What is gained and lost by each measure that makes `robust-small` small."""
+    rows = [["without the measure", *_FOUR, "error", "of HH's", "of SGBM's"]]
+    for method in (SMALL, *evaluation.undone):
+        if method not in evaluation.methods:
+            continue
+        s = evaluation.score(method)
+        values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
+        ratios = (f"{evaluation.ratio(method, rival):.3f}" for rival in RIVALS)
+        name = "none: as it is" if method == SMALL else method
+        rows.append([name, *(f"{v:.2f}" for v in values), *ratios])
+    text = (
+        "The preset `robust-small` with one of the measures undone that save memory and logic, so that it is"
+        " there as `robust` is; the last row with all of them undone."
+    )
+    return Table("What small parts go without", text, rows)
+
+
 def confidence(evaluation: Evaluation) -> Table:
     """How well confidences order the measured pixels."""
     rows = [["preset", "off by > 1 px, all measured", "surest half", "area", "best area"]]
@@ -150,4 +172,5 @@ def by_scene(evaluation: Evaluation) -> Table:
 
 def _shown(evaluation: Evaluation) -> list[str]:
     """The methods of the main tables."""
-    return [method for method in evaluation.methods if method not in evaluation.fuzzy]
+    left_out = {*evaluation.fuzzy, *evaluation.undone}
+    return [method for method in evaluation.methods if method not in left_out]

@@ -1,4 +1,4 @@
-"""The configurations that the question "fuzzy or not?" compares, over the same criteria."""
+"""The configurations that questions are asked about: fuzzy or not, and what small parts go without."""
 
 from softdepth.spec.config import OPERATORS, Config
 
@@ -12,8 +12,29 @@ _CRITERIA = [
 _GRADIENT_NEST = [{"window": w, "source": "gradient", "label_bits": 10} for w in (3, 5, 7)]
 
 
+_OLD_SUMS = ["criteria.0.rows=9", "criteria.0.columns=9"]
+_ISLAND = ["post.island_rows=5", "post.island_columns=5"]
+_MASKED = ["post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=15"]
+UNDONE = {
+    "sums over 9x9": _OLD_SUMS,
+    "island test over 5x5": _ISLAND,
+    "with a median of 5x5": ["post.median=5"],
+    "every pixel of the row": ["post.masked_spacing=1"],
+    "masked medians over 19 and 19": _MASKED,
+    "colours of 8 bits": ["post.colour_bits=12"],
+    "all of these": [*_OLD_SUMS, *_ISLAND, "post.median=5", *_MASKED, "post.colour_bits=12"],
+}
+"""What `robust-small` is without each of the measures that save memory and logic: as `robust` is there."""
+
+
+def small_undone() -> dict[str, Config]:
+    """`robust-small` with each of them undone, and with all, by name."""
+    base = Config.preset("robust-small")
+    return {name: base.override([f"name={name}", *changes]) for name, changes in UNDONE.items()}
+
+
 def compared() -> dict[str, Config]:
-    """All of them."""
+    """Those of "fuzzy or not?"."""
     return {**fuzzy_or_not(), **paper_on_gradient()}
 
 

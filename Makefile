@@ -67,7 +67,7 @@ accuracy: $(READY) ## presets and OpenCV on scenes with known depth: docs/accura
 	@$(BIN)/softdepth evaluate $(if $(SOFTDEPTH_SCENES),--scenes "$(SOFTDEPTH_SCENES)") \
 		$(if $(SOFTDEPTH_DATA),--scenes "$(SOFTDEPTH_DATA)") \
 		$(if $(wildcard $(SOFTDEPTH_SCENES)/qPianoL),--leave-out qPianoL) \
-		--degraded --fuzzy --small --document docs/accuracy.md $(ARGS)
+		--degraded --fuzzy --ablation --document docs/accuracy.md $(ARGS)
 
 compare: $(READY) ## hardware against float model on Middlebury: docs/compare.md, docs/operators.md
 	@for method in "paper mean" "paper min" "compact mean" "lite mean"; do set -- $$method; \

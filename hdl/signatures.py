@@ -20,6 +20,11 @@ def pixel_layout(pixel: PixelFormat) -> data.ArrayLayout:
     return data.ArrayLayout(pixel.bits, pixel.channels)
 
 
+def colour_size(config: Config) -> int:
+    """Bits of the colour that travels with a result to the stages behind the winners."""
+    return config.pixel.channels * config.colour_bits
+
+
 def pair_layout(pixel: PixelFormat) -> data.StructLayout:
     """Input payload: a rectified pixel pair and its markers.
 

@@ -41,6 +41,8 @@ class WholeLatency:
     right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
         beyond a line, lines below a frame, and behind it.
     ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
+    windows : rows and columns that the windows of the stages behind the winners reach: these take so many
+        lines more a frame, and twice as many slots more a line.
     masked : rows and columns that the masked medians reach: they take so many lines more a frame, and slots
         more a line.
     """
@@ -53,6 +55,7 @@ class WholeLatency:
     below: int
     drain: int
     ahead: int
+    windows: tuple[tuple[int, int], ...]
     masked: tuple[int, int]
 
     @classmethod
@@ -78,6 +81,10 @@ class WholeLatency:
             below=reach.below,
             drain=drain_of(config),
             ahead=ahead,
+            windows=(
+                *(((post.island_rows // 2, post.island_columns // 2),) if post.island else ()),
+                *(((MEDIAN_REACH, MEDIAN_REACH),) if post.median else ()),
+            ),
             masked=post.masked_reach,
         )
 
@@ -88,9 +95,10 @@ class WholeLatency:
         """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
         front = (width + 2 * self.ahead) * (height + self.ahead + self.below) * clocks_of(steps)
+        windows = [(width + 2 * columns) * (height + rows) for rows, columns in self.windows]
         rows, columns = self.masked
         medians = (width + columns) * (height + rows) * min(steps, 2)
-        return max(costs, front, medians)
+        return max(costs, front, medians, *(slots * clocks_of(steps) for slots in windows))
 
 
 def _up_to_winners(config: Config, ahead: int) -> int:

@@ -5,15 +5,16 @@ similar colour in the reference view (`likeness`), and are valid; of these n, ra
 Invalid results are left unchanged. Down the column, the same is done to the transposed picture.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.golden.front.gradient import BITS
-from softdepth.golden.front.likeness import alike_beside
+from softdepth.golden.front.likeness import alike_beside, coarse
 from softdepth.golden.front.pair import Image
 from softdepth.golden.post.rank import MISSING, lower_median
+from softdepth.spec.post import Post
 
 BAND_ROWS = 64
 
@@ -53,3 +54,16 @@ def down_column(
 ) -> NDArray[np.uint16]:
     """As `along_row`, in the other direction."""
     return along_row(values.T, valid.T, image.transpose(1, 0, 2), offsets, like, bits).T
+
+
+def both(
+    values: NDArray[np.uint16], valid: NDArray[np.bool_], image: Image, post: Post, bits: int = BITS
+) -> Iterator[tuple[str, NDArray[np.uint16]]]:
+    """The medians that `post` asks for, one after the other: a name, and the values after it."""
+    image = coarse(image, post.colour_bits, bits)
+    for name, direction, offsets in (
+        ("along the row", along_row, post.masked_along),
+        ("down the column", down_column, post.masked_down),
+    ):
+        values = direction(values, valid, image, offsets, post.like, bits)
+        yield name, values

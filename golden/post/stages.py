@@ -20,12 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softdepth.golden.front.gradient import BITS
-from softdepth.golden.front.likeness import coarse
 from softdepth.golden.front.pair import Image
 from softdepth.golden.post.fill import fill
 from softdepth.golden.post.island import on_an_island
 from softdepth.golden.post.left_right import consistent
-from softdepth.golden.post.masked_median import along_row, down_column
+from softdepth.golden.post.masked_median import both
 from softdepth.golden.post.median import median
 from softdepth.golden.post.sixteenths import sixteenths
 from softdepth.golden.winners.frame import Winners
@@ -71,12 +70,7 @@ def stages(
     if post.median:
         done.append(Stage("median", median(done[-1].disparity, taking_part), code))
     if post.masked_median:
-        image = coarse(image, config.colour_bits, bits)
-        for name, direction, offsets in (
-            ("along the row", along_row, post.masked_along),
-            ("down the column", down_column, post.masked_down),
-        ):
-            values = direction(done[-1].disparity, taking_part, image, offsets, post.like, bits)
+        for name, values in both(done[-1].disparity, taking_part, image, post, bits):
             done.append(Stage(f"masked median {name}", values, code))
     return done
 

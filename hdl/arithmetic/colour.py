@@ -1,4 +1,4 @@
-"""Whether two colours are alike."""
+"""Likeness of two colours, and colours of fewer bits."""
 
 from amaranth.hdl import Cat, Value
 
@@ -13,7 +13,7 @@ def coarse(colour: Value, channels: int, kept: int) -> Value:
 
 def coarse_like(like: Value | int, dropped: int) -> Value | int:
     """What colours without their ``dropped`` lowest bits must differ by in order to differ by ``like``."""
-    return (like + (1 << dropped) - 1) >> dropped
+    return (like + (1 << dropped) - 1) >> dropped if dropped else like
 
 
 def alike(a: Value, b: Value, channels: int, like: Value | int) -> Value:

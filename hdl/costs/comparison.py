@@ -175,7 +175,7 @@ class Plan:
         return not comparison.taps and columns > FEW_COLUMNS and self.right == comparison.ahead
 
     @property
-    def supported(self) -> bool:
+    def has_support(self) -> bool:
         """Some comparison has a support, for which whole colours are compared."""
         return any(c.taps for c in self.comparisons)
 

@@ -29,6 +29,7 @@ from softdepth.hdl.front.slots import Slots
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.signatures import colour_size
 from softdepth.spec.config import Config
 
 COLUMN_TIME = 2
@@ -48,7 +49,7 @@ def tags_layout(config: Config) -> data.StructLayout:
             "emits": 1,
             "border": int(not config.whole_frame),
             "full": 1,
-            "colour": config.colour_size,
+            "colour": colour_size(config),
             **dict.fromkeys(MARKERS, 1),
         }
     )

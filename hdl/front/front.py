@@ -108,7 +108,7 @@ class Front(wiring.Component):
             pixel.channels,
             pixel.bits,
             self._config.max_width,
-            colour_bits=pixel.bits if needs.supported else self._config.colour_bits,
+            colour_bits=pixel.bits if needs.has_support else self._config.colour_bits,
             descriptors=tuple(needs.descriptors.values()),
             rows=needs.rows,
             after=needs.below,

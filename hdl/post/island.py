@@ -21,7 +21,7 @@ class Island(wiring.Component):
     Parameters
     ----------
     value_bits, colour_bits : of a result.
-    rows, columns : reach of the window.
+    rows, columns : reach of the window on either side.
 
     Members
     -------

@@ -8,6 +8,7 @@ from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
+from softdepth.hdl.signatures import colour_size
 from softdepth.hdl.thresholds import threshold
 from softdepth.spec.config import Config
 from softdepth.spec.post import MEDIAN_REACH
@@ -20,7 +21,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
     """
     config = from_zero(config)
     post = config.post
-    size = (config.result_bits, config.colour_size)
+    size = (config.result_bits, colour_size(config))
     stages: dict[str, Island | Fill | Median | MaskedMedians] = {}
     if post.island:
         stages["island"] = island_of(config)
@@ -36,7 +37,7 @@ def post_stages(config: Config) -> dict[str, Island | Fill | Median | MaskedMedi
 def island_of(config: Config) -> Island:
     """The stage of the island test."""
     post = config.post
-    size = (config.result_bits, config.colour_size, config.max_width)
+    size = (config.result_bits, colour_size(config), config.max_width)
     reach = {"rows": post.island_rows // 2, "columns": post.island_columns // 2}
     return Island(*size, post.island, **reach, clocks=clocks_of(config.steps))
 
@@ -45,7 +46,7 @@ def median_of(config: Config) -> Median:
     """The stage of the median."""
     config = from_zero(config)
     reach = {"rows": MEDIAN_REACH, "columns": MEDIAN_REACH}
-    size = (config.result_bits, config.colour_size, config.max_width)
+    size = (config.result_bits, colour_size(config), config.max_width)
     return Median(*size, **reach, holes=not config.post.fill, clocks=clocks_of(config.steps))
 
 
@@ -57,7 +58,7 @@ def masked_medians_of(config: Config) -> MaskedMedians:
     like = threshold("like", post.like) << (pixel.bits - LIKE_BITS)
     return MaskedMedians(
         config.result_bits,
-        config.colour_size,
+        colour_size(config),
         pixel.channels,
         config.max_width,
         rows=rows,

@@ -40,8 +40,8 @@ def evaluate(
     fuzzy: Annotated[
         bool, typer.Option("--fuzzy", help="Also fuzzy costs against the sum, over the same criteria.")
     ] = False,
-    small: Annotated[
-        bool, typer.Option("--small", help="Also robust-small without each measure that makes it small.")
+    ablation: Annotated[
+        bool, typer.Option("--ablation", help="Also robust-small with each of its savings taken back.")
     ] = False,
     processes: Annotated[
         int, typer.Option("--processes", metavar="N", min=1, help="Scenes at a time.")
@@ -71,7 +71,7 @@ def evaluate(
     found = folders.find(scenes, leave_out or ())
     evaluation.check_document(document)
     result = evaluation.evaluate(
-        found, configs, engine=engine, degraded=degraded, fuzzy=fuzzy, small=small, processes=processes
+        found, configs, engine=engine, degraded=degraded, fuzzy=fuzzy, ablation=ablation, processes=processes
     )
     evaluation.write(output, result, document)
     evaluation.show(result)

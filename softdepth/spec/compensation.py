@@ -1,9 +1,11 @@
 """The compensating rule (Bobyr et al. 2021)."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 from pydantic import Field
 
+from softdepth.spec.criteria import AnyCriterion, Sad
 from softdepth.spec.frozen import Frozen
 
 Reading = Literal["off", "top", "literal"]
@@ -25,3 +27,14 @@ class Compensation(Frozen):
     threshold: int = Field(default=1200, ge=0)
     from_disparity: int = Field(default=32, ge=-256)
     criterion: int = Field(default=0, ge=0, le=3)
+
+    def judged(self, criteria: Sequence[AnyCriterion]) -> int | None:
+        """Index of the criterion whose SAD is looked at, if there is such a one."""
+        if self.criterion:
+            return self.criterion - 1
+        found = [
+            i
+            for i, c in enumerate(criteria)
+            if isinstance(c, Sad) and (c.window, c.dx, c.source) == (3, 0, "colour")
+        ]
+        return found[0] if found else None

@@ -15,7 +15,7 @@ from softdepth.spec.compensation import LITERAL_INPUT, Compensation
 from softdepth.spec.criteria import AnyCriterion, Census, Criterion, Gradient, Sad
 from softdepth.spec.operators import REGISTRY
 from softdepth.spec.pixel import PixelFormat
-from softdepth.spec.post import LATER, Post
+from softdepth.spec.post import Post
 from softdepth.spec.presets import PRESETS
 from softdepth.spec.ranges import MULTIPLIER_BITS, QUOTIENT_BITS
 from softdepth.spec.rules import Firing, RuleBaseName
@@ -111,9 +111,7 @@ class Config(Settings):
             criterion.pop(stored_rows.KEY, None)
             if criterion.get("running_sums"):  # as it always was: hashes of earlier cores stay
                 del criterion["running_sums"]
-        for key in LATER:  # likewise
-            if data["post"][key] == type(self.post).model_fields[key].default:
-                del data["post"][key]
+        data["post"] = self.post.shaping()
         return data | {stored_rows.KEY: self.stored_rows}
 
     # -- derived: parallelism and ranges ---------------------------------------------------------
@@ -172,13 +170,8 @@ class Config(Settings):
 
     @property
     def colour_bits(self) -> int:
-        """Bits of each channel that the stages after the winners compare."""
-        return min(self.post.colour_bits, self.pixel.bits)
-
-    @property
-    def colour_size(self) -> int:
-        """Bits of the colour that travels with a result for them."""
-        return self.pixel.channels * self.colour_bits
+        """Bits of each channel that travel with a result: what the stages after the winners compare."""
+        return min(self.post.colour_bits, self.pixel.bits) if self.post.masked_median else self.pixel.bits
 
     @property
     def code_bits(self) -> int:
@@ -299,11 +292,4 @@ class Config(Settings):
     @property
     def compensation_criterion(self) -> int | None:
         """Index of the criterion that the compensating rule looks at, if there is such a one."""
-        if self.compensation.criterion:
-            return self.compensation.criterion - 1
-        found = [
-            i
-            for i, c in enumerate(self.criteria)
-            if isinstance(c, Sad) and (c.window, c.dx, c.source) == (3, 0, "colour")
-        ]
-        return found[0] if found else None
+        return self.compensation.judged(self.criteria)

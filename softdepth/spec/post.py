@@ -1,6 +1,6 @@
 """What happens to a frame's disparities after the winners: checks, filling, filters."""
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -34,9 +34,9 @@ class Post(Frozen):
     median : 5 is the median of the 5x5 pixels around, edges replicated. 0 is off.
     masked_median : reach of the lower median of those pixels in the row, and then in the column, whose
         colour differs from the centre's by less than `like` in every channel. 0 is off.
-    masked_spacing : along the row, only pixels so many columns apart count, the centre one of them, or as
-        many as it reaches if that is less.
-    masked_rows : the reach down the column, where it is to be less than along the row.
+    masked_spacing : along the row, only every so many-th pixel counts, from the centre on; at most
+        `masked_median`.
+    masked_rows : reach down the column; at most `masked_median`.
     like : in units of 8-bit values.
     colour_bits : bits of each channel that are compared, the highest; all, where a pixel has no more.
     confidence : results carry eight bits, the winner's margin over the best candidate that is not its
@@ -63,7 +63,7 @@ class Post(Frozen):
         if self.tolerance and not self.check:
             raise ValueError(f"tolerance is {self.tolerance} without a check: use check = true, or 0")
         pixels, most = self.island_rows * self.island_columns, (1 << ISLAND_BITS) - 1
-        if pixels > most:
+        if self.island and pixels > most:
             raise ValueError(
                 f"island_rows x island_columns is {pixels} pixels: use at most {most}, for example 3 x 9"
             )
@@ -86,6 +86,12 @@ class Post(Frozen):
             or self.masked_median
             or self.confidence
         )
+
+    def shaping(self) -> dict[str, Any]:
+        """All that shapes the stages, as plain data, without keys of `LATER` that are as they always were."""
+        data = self.model_dump(mode="json")
+        fields = type(self).model_fields
+        return {k: v for k, v in data.items() if k not in LATER or v != fields[k].default}
 
     @property
     def below(self) -> int:

@@ -33,7 +33,7 @@ SMALL = Config.preset("robust-small").override(
     [
         *("max_width=40", "max_height=24", "disparities=6", "lanes=3"),
         *("criteria.0.rows=3", "criteria.0.columns=3", "post.island=6"),
-        *("post.fill=false", "post.median=0", "post.masked_median=2"),
+        *("post.fill=false", "post.median=0", "post.masked_median=2", "post.colour_bits=8"),
     ]
 )
 """A core with everything that a register sets."""

@@ -148,6 +148,19 @@ def whole_frames_for(config: Config, seed: int) -> list[Pair]:
     return [of_pixels(pair, config, seed) for pair in pairs]
 
 
+def _windows(seed: int) -> dict[str, int]:
+    """Of the island test and the masked medians; not too small for any island test."""
+    rng = np.random.default_rng([seed, 1])
+    rows, columns = rng.choice([(5, 5), (3, 9), (1, 9), (3, 5), (3, 3)])
+    return {
+        "island_rows": int(rows),
+        "island_columns": int(columns),
+        "masked_spacing": int(rng.integers(1, 5)),
+        "masked_rows": int(rng.choice([1, 3, 15])),
+        "colour_bits": int(rng.choice([1, 4, 6, 12])),
+    }
+
+
 def random_whole_config(seed: int) -> Config:
     """A configuration summed down columns, drawn at random from everything that there is.
 
@@ -237,6 +250,7 @@ def random_whole_config(seed: int) -> Config:
                 "fill": pick([False, True]),
                 "median": pick([0, 5]),
                 "masked_median": pick([0, 2, 9]),
+                **_windows(seed),
                 "like": pick([16, 32, 40]),
                 "confidence": pick([False, True]),
             },

@@ -46,7 +46,7 @@ def test_fusesoc_lints(package: Path, tmp_path: Path) -> None:
 def test_fusesoc_lints_every_stage_two_streams_and_wishbone(tmp_path: Path) -> None:
     """With the check, the island test, sixteenths, confidence, filling and both medians."""
     config = Config.preset("robust-small").override(
-        ["max_width=64", "max_height=48", "disparities=4", "lanes=4", "pixel=gray8"]
+        ["max_width=64", "max_height=48", "disparities=4", "lanes=4", "pixel=gray8", "post.median=5"]
     )
     config.save(tmp_path / "small.toml")
     target = tmp_path / "ip"

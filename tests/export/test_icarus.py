@@ -146,7 +146,7 @@ STAGES = [
     [*NO_STAGE, "post.island=4"],
     [*NO_STAGE, "post.median=5"],
     [*NO_STAGE, "post.masked_median=2"],
-    ["post.masked_median=2"],
+    ["post.masked_median=2", "post.median=5"],
 ]
 LANES = (1, 2, 4)
 COMBINATIONS = [

@@ -1,5 +1,6 @@
 """Census, gradient, winners and post-processing against plain loops over their definitions."""
 
+import itertools
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from softdepth.golden import fixed_model, float_model
 from softdepth.golden.data.pair import StereoPair
 from softdepth.spec.config import Config
+from softdepth.studies.evaluate.variants import ABLATIONS
 from tests.golden.test_fixed_model_loops import loop_inference
 from tests.golden.test_float_model import eq_10
 
@@ -114,11 +116,7 @@ class Loops:
                 code[y, x] = INCONSISTENT
         valid = {p for p in pixels if code[p] <= PARTIAL}
         for y, x in sorted(valid):
-            around = [
-                (clip(y + i, 0, self.h - 1), clip(x + j, 0, self.w - 1))
-                for i in range(-(post.island_rows // 2), post.island_rows // 2 + 1)
-                for j in range(-(post.island_columns // 2), post.island_columns // 2 + 1)
-            ]
+            around = self.around(y, x, post.island_rows, post.island_columns)
             if sum(p in valid for p in around) < post.island:
                 code[y, x] = ISLAND
         valid = {p for p in pixels if code[p] <= PARTIAL}
@@ -135,6 +133,11 @@ class Loops:
             value = {p: self.masked(p, value, taking, dy, dx) if p in taking else 0 for p in pixels}
         return value, code, {p: sure[p] if p in valid else 0 for p in pixels}
 
+    def around(self, y, x, rows, columns):
+        steps = itertools.product(range(rows), range(columns))
+        top, first = y - rows // 2, x - columns // 2
+        return [(clip(top + i, 0, self.h - 1), clip(first + j, 0, self.w - 1)) for i, j in steps]
+
     def filler(self, p, value, valid):
         y, x = p
         found = []
@@ -148,12 +151,7 @@ class Loops:
 
     def median(self, p, value, taking):
         y, x = p
-        places = [
-            (clip(y + i, 0, self.h - 1), clip(x + j, 0, self.w - 1))
-            for i in range(-2, 3)
-            for j in range(-2, 3)
-        ]
-        found = sorted(value[q] for q in places if q in taking)
+        found = sorted(value[q] for q in self.around(y, x, 5, 5) if q in taking)
         return found[(len(found) - 1) // 2]
 
     def masked(self, p, value, taking, dy, dx):
@@ -187,12 +185,6 @@ def frames(height, width, seed):
     return left, right
 
 
-TEXT = [
-    *("criteria.0.rows=9", "criteria.0.columns=9", "post.island_rows=5", "post.island_columns=5"),
-    *("post.median=5", "post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=9"),
-    "post.colour_bits=8",
-]
-"""`robust-small` with the windows and filters of `robust`."""
 CASES = {
     "robust": ("robust", []),
     "small": ("robust-small", []),
@@ -206,7 +198,7 @@ CASES = {
             "criteria.1.rows=3", "criteria.1.columns=7", "criteria.1.truncation=40", "post.masked_median=2",
         ],
     ),
-    "small of the text": ("robust-small", TEXT),
+    "small, nothing saved": ("robust-small", ABLATIONS["all of these"]),
     "coarse colours": ("robust", ["post.colour_bits=3", "post.like=40", "post.island_columns=3"]),
     "far apart": ("robust-gray", ["post.masked_median=6", "post.masked_spacing=3", "post.masked_rows=1"]),
     "no support": ("robust", ["criteria.0.taps=1", "post.median=0"]),

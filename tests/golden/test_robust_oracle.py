@@ -15,17 +15,12 @@ from softdepth.golden import fixed_model
 from softdepth.golden.data.pair import StereoPair
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
+from softdepth.studies.evaluate.variants import ABLATIONS
 
 ORACLE, SCENES = "SOFTDEPTH_ORACLE", "SOFTDEPTH_SCENES"
 KEYS = {"robust": {}, "robust-small": {"small": True}, "robust-gray": {"gray": True}}
-SIZES = {
-    "robust-small": [
-        *("criteria.0.rows=9", "criteria.0.columns=9", "post.island_rows=5", "post.island_columns=5"),
-        *("post.median=5", "post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=9"),
-        "post.colour_bits=8",
-    ]
-}
-"""What the transcription has otherwise: windows and filters of `robust`."""
+OVERRIDES = {"robust-small": ABLATIONS["all of these"]}
+"""The transcription's small method has sums over 9x9, and the filters of `robust`."""
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +37,7 @@ def oracle():
 
 
 def agree(oracle, preset, left, right, disparities=64):
-    changes = [f"disparities={disparities}", "lanes=1", "max_multipliers=999", *SIZES.get(preset, [])]
+    changes = [f"disparities={disparities}", "lanes=1", "max_multipliers=999", *OVERRIDES.get(preset, [])]
     config = Config.preset(preset).override(changes)
     views = StereoPair(left, right, preset).as_format(config.pixel)
     got = fixed_model.disparity(views.left, views.right, config)

@@ -31,6 +31,15 @@ COMBINATIONS: dict[str, Config] = {
     "fuzzy, all of one kind": config(**SIZE, operator="min", criteria=MIXED[:2] + MIXED[:1]),
     "fuzzy and checked": config(**SIZE, criteria=MIXED, post=ALL | {"confidence": True}),
     "a SAD and every stage": config(**SIZE, cost="sum", criteria=[sad(3)], post=ALL),
+    "few rows and coarse colours": config(
+        **SIZE,
+        pixel="rgb12",
+        cost="sum",
+        criteria=MIXED[:1],
+        post=ALL
+        | {"island_rows": 3, "island_columns": 7, "masked_median": 5, "masked_spacing": 2}
+        | {"masked_rows": 2, "colour_bits": 3, "like": 72},
+    ),
     "candidates from 3 on": config(**SIZE, min_disparity=3, cost="sum", criteria=MIXED[:1], post=ALL),
     "candidates from -3 on": config(
         **SIZE, min_disparity=-3, pixel="gray12", criteria=MIXED, post={"check": True, "fraction_bits": 4}

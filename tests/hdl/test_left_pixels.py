@@ -43,6 +43,7 @@ CORES: dict[str, tuple[str, Config]] = {
         Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=1", "min_disparity=-2"]),
     ),
     "coarse": ("guard", Config.preset("robust-small").override([*WHOLE, "post.masked_median=1"])),
+    "not compared": ("results", Config.preset("robust-small").override([*WHOLE, "post.masked_median=0"])),
 }
 FRAMES = [textured(6, 16, 1), textured(4, 11, 2), textured(2, 16, 3)]
 PAYLOADS = [pixel for pair in FRAMES for pixel in pack_frame(*pair).tolist()]

@@ -18,6 +18,9 @@ from softdepth.spec.pixel import PixelFormat
         (["post.foo=1"], "unknown key 'post.foo'; known keys: check, tolerance, island"),
         (["post.check=false", "post.tolerance=2"], "post: tolerance is 2 without a check;"),
         (["post.median=3"], "post.median = 3 is not valid"),
+        (["post.island_columns=9"], "post: island_rows x island_columns is 45 pixels; use at most 31"),
+        (["post.island_rows=1"], "post: island is 8, but there are 1 x 5 pixels around; use at most 5"),
+        (["post.masked_spacing=5"], "post.masked_spacing = 5 is not valid"),
         (["cost=fuzzy"], "criteria has 2 entries, but cost = 'fuzzy' takes 3"),
         (["stored_rows=1"], "stored_rows is 1, but a window of 1 rows"),
         (["max_multipliers=31"], "takes 32 multipliers"),
@@ -46,6 +49,28 @@ def test_files_keep_every_key(tmp_path):
         config = Config.preset(name).override(["post.like=9"])
         config.save(tmp_path / f"{name}.toml")
         assert Config.load(tmp_path / f"{name}.toml") == config
+
+
+def test_windows_of_the_filters():
+    def post(**changes):
+        return (
+            Config.preset("robust").override([f"post.{key}={value}" for key, value in changes.items()]).post
+        )
+
+    assert post().masked_along == post().masked_down == tuple(range(-9, 10))
+    assert post(masked_median=5, masked_spacing=2, masked_rows=1).masked_along == (-4, -2, 0, 2, 4)
+    assert post(masked_median=5, masked_rows=1).masked_down == (-1, 0, 1)
+    assert post(masked_median=2, masked_spacing=4).masked_along == (-2, 0, 2)
+    assert post(masked_median=0).masked_along == post(masked_median=0).masked_down == (0,)
+    assert post(island=3, island_rows=1, masked_rows=4).below == 0 + 2 + 4
+    small = Config.preset("robust-small")
+    assert (small.colour_bits, small.override(["post.masked_median=0"]).colour_bits) == (5, 8)
+    assert small.override(["pixel=gray12"]).colour_bits == 5
+
+
+def test_keys_that_came_later_leave_hashes_as_they_were():
+    assert Config.preset("robust").hash == "1c9f7235e0d4"
+    assert Config.preset("robust").override(["post.colour_bits=7"]).hash != "1c9f7235e0d4"
 
 
 def test_the_earlier_name_of_the_sum_is_read():

@@ -41,8 +41,8 @@ class Evaluation(BaseModel):
     presets : our configurations, by name, complete.
     hashes : what names them.
     fuzzy : the names of those that were added to compare costs.
-    undone : of those that were added to tell what `robust-small` goes without.
-    lanes : what a lane of these takes, of those that were measured.
+    ablations : of those that are `robust-small` with a saving taken back.
+    lanes : what a lane of those in `fuzzy` takes, where it was measured.
     methods : every method's name and title, in the order of the tables.
     ways : the ways in which pairs were degraded, with ``clean`` first.
     """
@@ -51,7 +51,7 @@ class Evaluation(BaseModel):
     presets: dict[str, dict[str, Any]]
     hashes: dict[str, str]
     fuzzy: list[str]
-    undone: list[str] = []
+    ablations: list[str] = []
     lanes: dict[str, LaneFigures] = {}
     methods: dict[str, str]
     ways: list[str]

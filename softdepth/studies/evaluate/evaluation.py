@@ -53,18 +53,18 @@ def evaluate(
     engine: work.Engine = "fixed",
     degraded: bool = False,
     fuzzy: bool = False,
-    small: bool = False,
+    ablation: bool = False,
     processes: int = 1,
 ) -> Outcome:
     """Evaluate configurations, by name, on scenes, showing progress.
 
-    `degraded` adds the pairs of `degrade.WAYS`; `fuzzy` and `small` add configurations of `variants`, which
-    are scored on clean pairs alone. Raises `InputError` for scenes that cannot be read or that a core cannot
-    take.
+    `degraded` adds the pairs of `degrade.WAYS`; `fuzzy` and `ablation` add configurations of `variants`,
+    which are scored on clean pairs alone. Raises `InputError` for scenes that cannot be read or that a core
+    cannot take.
     """
     costs = variants.compared() if fuzzy else {}
-    undone = variants.small_undone() if small else {}
-    extra = {**costs, **undone}
+    ablations = variants.ablations() if ablation else {}
+    extra = {**costs, **ablations}
     everything = {**configs, **extra}
     ways = list(WAYS) if degraded else []
     shown = [*list(configs)[:PRESETS_SHOWN], *RIVALS_SHOWN]
@@ -74,7 +74,7 @@ def evaluate(
         presets={name: config.model_dump(mode="json") for name, config in everything.items()},
         hashes={name: config.hash for name, config in everything.items()},
         fuzzy=list(costs),
-        undone=list(undone),
+        ablations=list(ablations),
         lanes=lanes.known(costs),
         methods=work.titles(everything),
         ways=[CLEAN, *ways],

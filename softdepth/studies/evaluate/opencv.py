@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from softdepth.golden.front.pair import Image
 from softdepth.golden.post.fill import fill
 from softdepth.golden.post.island import on_an_island
-from softdepth.golden.post.masked_median import along_row, down_column
+from softdepth.golden.post.masked_median import both
 from softdepth.golden.post.median import median
 from softdepth.golden.post.sixteenths import UNITS
 from softdepth.spec.post import Post
@@ -67,6 +67,5 @@ def with_post(raw: Raw, image: Image, post: Post) -> NDArray[np.float32]:
     if post.median:
         values = median(values, everywhere)
     if post.masked_median:
-        for direction, offsets in ((along_row, post.masked_along), (down_column, post.masked_down)):
-            values = direction(values, everywhere, image, offsets, post.like)
+        *_, (_, values) = both(values, everywhere, image, post)
     return values.astype(np.float32) / np.float32(UNITS)

@@ -7,7 +7,7 @@ from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.lanes import CORE
 
 SMALL = "robust-small"
-"""The preset whose measures are undone one by one."""
+"""The preset whose savings are taken back one by one."""
 RIVALS = {"hh": "HH", "sgbm": "SGBM"}
 """Whose errors ours are divided by."""
 
@@ -33,8 +33,8 @@ def tables(evaluation: Evaluation) -> list[Table]:
         found.append(by_way(evaluation))
     if evaluation.fuzzy:
         found.append(fuzzy(evaluation))
-    if evaluation.undone:
-        found.append(small(evaluation))
+    if evaluation.ablations:
+        found.append(ablation(evaluation))
     if any(scene.sparsification for scene in evaluation.scenes):
         found.append(confidence(evaluation))
     found.append(by_scene(evaluation))
@@ -121,22 +121,22 @@ def fuzzy(evaluation: Evaluation) -> Table:
     return Table("Fuzzy or not", text, rows)
 
 
-def small(evaluation: Evaluation) -> Table:
-    """What is gained and lost by each measure that makes `robust-small` small."""
-    rows = [["without the measure", *_FOUR, "error", "of HH's", "of SGBM's"]]
-    for method in (SMALL, *evaluation.undone):
+def ablation(evaluation: Evaluation) -> Table:
+    """What each saving of `robust-small` costs in accuracy."""
+    rows = [["taken back", *_FOUR, "error", "of HH's", "of SGBM's"]]
+    for method in (SMALL, *evaluation.ablations):
         if method not in evaluation.methods:
             continue
         s = evaluation.score(method)
         values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
         ratios = (f"{evaluation.ratio(method, rival):.3f}" for rival in RIVALS)
-        name = "none: as it is" if method == SMALL else method
+        name = "nothing" if method == SMALL else method
         rows.append([name, *(f"{v:.2f}" for v in values), *ratios])
     text = (
-        "The preset `robust-small` with one of the measures undone that save memory and logic, so that it is"
-        " there as `robust` is; the last row with all of them undone."
+        "The preset `robust-small` with one of its savings taken back: with sums over 9x9, or with one of the"
+        " filters as in `robust`. The last row has all of them taken back."
     )
-    return Table("What small parts go without", text, rows)
+    return Table("Ablation of `robust-small`", text, rows)
 
 
 def confidence(evaluation: Evaluation) -> Table:
@@ -172,5 +172,5 @@ def by_scene(evaluation: Evaluation) -> Table:
 
 def _shown(evaluation: Evaluation) -> list[str]:
     """The methods of the main tables."""
-    left_out = {*evaluation.fuzzy, *evaluation.undone}
+    left_out = {*evaluation.fuzzy, *evaluation.ablations}
     return [method for method in evaluation.methods if method not in left_out]

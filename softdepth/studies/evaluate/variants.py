@@ -1,4 +1,4 @@
-"""The configurations that questions are asked about: fuzzy or not, and what small parts go without."""
+"""Configurations that are compared: fuzzy or not, and each saving of `robust-small` taken back."""
 
 from softdepth.spec.config import OPERATORS, Config
 
@@ -12,25 +12,25 @@ _CRITERIA = [
 _GRADIENT_NEST = [{"window": w, "source": "gradient", "label_bits": 10} for w in (3, 5, 7)]
 
 
-_OLD_SUMS = ["criteria.0.rows=9", "criteria.0.columns=9"]
+_SUMS = ["criteria.0.rows=9", "criteria.0.columns=9"]
 _ISLAND = ["post.island_rows=5", "post.island_columns=5"]
 _MASKED = ["post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=15"]
-UNDONE = {
-    "sums over 9x9": _OLD_SUMS,
+ABLATIONS = {
+    "sums over 9x9": _SUMS,
     "island test over 5x5": _ISLAND,
     "with a median of 5x5": ["post.median=5"],
     "every pixel of the row": ["post.masked_spacing=1"],
     "masked medians over 19 and 19": _MASKED,
     "colours of 8 bits": ["post.colour_bits=12"],
-    "all of these": [*_OLD_SUMS, *_ISLAND, "post.median=5", *_MASKED, "post.colour_bits=12"],
+    "all of these": [*_SUMS, *_ISLAND, "post.median=5", *_MASKED, "post.colour_bits=12"],
 }
-"""What `robust-small` is without each of the measures that save memory and logic: as `robust` is there."""
+"""What takes back each saving of `robust-small`: the filters are then those of `robust`."""
 
 
-def small_undone() -> dict[str, Config]:
-    """`robust-small` with each of them undone, and with all, by name."""
+def ablations() -> dict[str, Config]:
+    """`robust-small` with each of them taken back, and with all, by name."""
     base = Config.preset("robust-small")
-    return {name: base.override([f"name={name}", *changes]) for name, changes in UNDONE.items()}
+    return {name: base.override([f"name={name}", *changes]) for name, changes in ABLATIONS.items()}
 
 
 def compared() -> dict[str, Config]:

@@ -33,9 +33,10 @@ def frames(seed: int) -> list[Fields]:
 
 @pytest.mark.parametrize("stalls", STALLS)
 @pytest.mark.parametrize(
-    ("least", "rows", "columns"), [(8, 2, 2), (14, 2, 2), (8, 1, 4), (3, 0, 2), (2, 1, 0)]
+    ("least", "rows", "columns", "clocks"),
+    [(8, 2, 2, 1), (14, 2, 2, 2), (8, 1, 4, 2), (3, 0, 2, 1), (2, 1, 0, 2), (2, 0, 0, 1)],
 )
-def test_island(least: int, rows: int, columns: int, stalls: dict[str, float]) -> None:
+def test_island(least: int, rows: int, columns: int, clocks: int, stalls: dict[str, float]) -> None:
     sent = frames(1)
     expected = []
     for frame in sent:
@@ -52,7 +53,7 @@ def test_island(least: int, rows: int, columns: int, stalls: dict[str, float]) -
                     want["value"][y, x], want["code"][y, x], want["confidence"][y, x] = 0, 5, 0
         expected.append(want)
     assert any((want["code"] != frame["code"]).any() for want, frame in zip(expected, sent, strict=True))
-    dut = Island(VALUE_BITS, COLOUR_BITS, MAX_WIDTH, least, rows=rows, columns=columns)
+    dut = Island(VALUE_BITS, COLOUR_BITS, MAX_WIDTH, least, rows=rows, columns=columns, clocks=clocks)
     check(through(dut, sent, **stalls), expected)
 
 
@@ -98,6 +99,8 @@ def test_median(rows: int, columns: int, holes: bool, stalls: dict[str, float]) 
         (4, 3, 2, 4, True, 1),
         (1, 5, 1, 4, True, 2),
         (5, 7, 3, 3, False, 1),
+        (4, 3, 2, 4, True, 2),
+        (3, 7, 3, 3, False, 2),
     ],
 )
 def test_masked_medians(

@@ -28,7 +28,7 @@ def results(folder, tmp_path_factory):
     place = tmp_path_factory.mktemp("results")
     document = place / "accuracy.md"
     document.write_text("before\n<!-- accuracy:begin -->\nold\n<!-- accuracy:end -->\nafter\n")
-    arguments = ["evaluate", "--scenes", folder, "--degraded", "--fuzzy", "--small"]
+    arguments = ["evaluate", "--scenes", folder, "--degraded", "--fuzzy", "--ablation"]
     arguments += ["-o", place / "out"]
     arguments += ["--set", "disparities=32", "--processes", 1, "--document", document]
     arguments += ["--preset", "robust", "--preset", "sad"]
@@ -51,17 +51,17 @@ def test_scores_are_those_of_the_maps(folder, results):
     assert scores["hh"] == score(opencv.filled(raw), pair.truth)
     dark = found.scenes[0].scores["dark"]
     assert dark["sad"].error > 2 * dark["robust"].error
-    assert not {*found.fuzzy, *found.undone} & set(dark)
+    assert not {*found.fuzzy, *found.ablations} & set(dark)
 
 
-def test_what_small_parts_go_without(results):
-    """Each measure undone is another core, and with all of them undone it filters as `robust` does."""
-    undone = variants.small_undone()
-    assert len({config.hash for config in undone.values()} | {Config.preset("robust-small").hash}) == 8
-    assert undone["all of these"].post == Config.preset("robust").post
+def test_each_saving_taken_back(results):
+    """Each gives another core, and all of them together one that filters as `robust` does."""
+    ablations, base = variants.ablations(), Config.preset("robust-small").hash
+    assert len({config.hash for config in ablations.values()} | {base}) == len(ablations) + 1
+    assert ablations["all of these"].post == Config.preset("robust").post
     document = (results / "accuracy.md").read_text()
     found = Evaluation.model_validate_json((results / "out" / "evaluate.json").read_text())
-    for name in undone:
+    for name in ablations:
         assert f"| {name} | {found.score(name).nonocc1:.2f} |" in document
 
 
@@ -88,7 +88,7 @@ def test_the_table_fits_a_terminal_of_80_columns(results, monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "80")
     evaluation.show(evaluation.Outcome(found, {}))
     shown = capsys.readouterr().out.splitlines()
-    assert len(shown) == 2 + len(found.methods) - len(found.fuzzy) - len(found.undone)  # no row is wrapped
+    assert len(shown) == 2 + len(found.methods) - len(found.fuzzy) - len(found.ablations)  # no row is wrapped
     assert max(map(len, shown)) <= 80
     assert any(f" {found.score('sad').error:.2f} " in line for line in shown)
 

@@ -18,7 +18,7 @@ Mask = NDArray[np.bool_]
 def coarse(image: Image, kept: int, bits: int = BITS) -> Image:
     """`image` with the lower bits of each channel 0, but for the `kept` highest."""
     dropped = max(bits - kept, 0)
-    return image >> dropped << dropped
+    return (image >> dropped << dropped).astype(image.dtype)
 
 
 def alike_beside(image: Image | NDArray[Any], offset: int, like: int, bits: int = BITS) -> Mask:

@@ -91,8 +91,8 @@ class WholeLatency:
     def frame_clocks(self, width: int, height: int, steps: int) -> int:
         """From a frame's first pixel to the next one's, where pixels are always on offer.
 
-        To within a line where a window behind the winners is the slowest, as it waits for what comes before. At
-        most so many where candidates do not begin at 0, whose columns are dropped a clock each.
+        To within a line where a window behind the winners is the slowest, as it waits for what comes before.
+        At most so many where candidates do not begin at 0, whose columns are dropped a clock each.
         """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
         front = (width + 2 * self.ahead) * (height + self.ahead + self.below) * clocks_of(steps)

@@ -5,9 +5,9 @@ from typing import NamedTuple
 from softdepth.studies.evaluate.degrade import WAYS
 from softdepth.studies.evaluate.document import CLEAN, Evaluation
 from softdepth.studies.evaluate.lanes import CORE
+from softdepth.studies.evaluate.score import Score
+from softdepth.studies.evaluate.variants import SMALL
 
-SMALL = "robust-small"
-"""The preset whose savings are taken back one by one."""
 RIVALS = {"hh": "HH", "sgbm": "SGBM"}
 """Whose errors ours are divided by."""
 
@@ -45,10 +45,7 @@ def overview(evaluation: Evaluation) -> Table:
     """Every method over all scenes."""
     head = [
         "method",
-        "bad-1 non-occluded",
-        "bad-2",
-        "bad-1 all",
-        "bad-2",
+        *_FOUR,
         "error",
         "of HH's",
         "of SGBM's",
@@ -57,10 +54,9 @@ def overview(evaluation: Evaluation) -> Table:
     rows = [head]
     for method in _shown(evaluation):
         score = evaluation.score(method)
-        values = score.nonocc1, score.nonocc2, score.all1, score.all2, score.error
         ratios = [f"{evaluation.ratio(method, rival):.3f}" for rival in RIVALS]
         measured = "-" if score.measured is None else f"{score.measured:.1f} %"
-        rows.append([evaluation.methods[method], *(f"{v:.2f}" for v in values), *ratios, measured])
+        rows.append([evaluation.methods[method], *_figures(score), *ratios, measured])
     text = (
         "Per cent of the pixels with known truth that are off by more than 1 and 2 px, as a mean over"
         f" {len(evaluation.scenes)} scenes. *Error* is the mean of the four. *Of HH's* and *of SGBM's* are"
@@ -99,13 +95,13 @@ def fuzzy(evaluation: Evaluation) -> Table:
     lanes = evaluation.lanes
     rows = [["cost", *_FOUR, "error", "of HH's", *(("LUT4 per lane", "multipliers") if lanes else ())]]
     for method in evaluation.fuzzy:
-        s = evaluation.score(method)
-        values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
         taken = []
         if lanes:
             lane = lanes.get(method)
             taken = [f"{lane.lut4:,}", f"{lane.multipliers:.1f}"] if lane else ["-", "-"]
-        rows.append([method, *(f"{v:.2f}" for v in values), f"{evaluation.ratio(method, 'hh'):.3f}", *taken])
+        rows.append(
+            [method, *_figures(evaluation.score(method)), f"{evaluation.ratio(method, 'hh'):.3f}", *taken]
+        )
     text = (
         "The sum of census, gradient over 5x5 and gradient over 9x9, and fuzzy inference over the same three"
         " (labels at 2^8, 2^8 and 2^9), all with the post-processing of `robust`. Below them is the preset"
@@ -127,11 +123,9 @@ def ablation(evaluation: Evaluation) -> Table:
     for method in (SMALL, *evaluation.ablations):
         if method not in evaluation.methods:
             continue
-        s = evaluation.score(method)
-        values = s.nonocc1, s.nonocc2, s.all1, s.all2, s.error
         ratios = (f"{evaluation.ratio(method, rival):.3f}" for rival in RIVALS)
         name = "nothing" if method == SMALL else method
-        rows.append([name, *(f"{v:.2f}" for v in values), *ratios])
+        rows.append([name, *_figures(evaluation.score(method)), *ratios])
     text = (
         "The preset `robust-small` with one of its savings taken back: with sums over 9x9, or with one of the"
         " filters as in `robust`. The last row has all of them taken back."
@@ -168,6 +162,12 @@ def by_scene(evaluation: Evaluation) -> Table:
         errors = (f"{scene.scores[CLEAN][m].error:.2f}" for m in methods)
         rows.append([scene.name, scene.group, f"{scene.width}x{scene.height}", *errors])
     return Table("By scene", "Error.", rows, names=2)
+
+
+def _figures(score: Score) -> list[str]:
+    """Cells for `_FOUR` and the error."""
+    values = score.nonocc1, score.nonocc2, score.all1, score.all2, score.error
+    return [f"{value:.2f}" for value in values]
 
 
 def _shown(evaluation: Evaluation) -> list[str]:

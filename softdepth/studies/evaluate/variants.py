@@ -12,24 +12,25 @@ _CRITERIA = [
 _GRADIENT_NEST = [{"window": w, "source": "gradient", "label_bits": 10} for w in (3, 5, 7)]
 
 
-_SUMS = ["criteria.0.rows=9", "criteria.0.columns=9"]
-_ISLAND = ["post.island_rows=5", "post.island_columns=5"]
-_MASKED = ["post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=15"]
-ABLATIONS = {
-    "sums over 9x9": _SUMS,
-    "island test over 5x5": _ISLAND,
+SMALL = "robust-small"
+"""The preset whose savings are taken back."""
+_SAVINGS = {
+    "sums over 9x9": ["criteria.0.rows=9", "criteria.0.columns=9"],
+    "island test over 5x5": ["post.island_rows=5", "post.island_columns=5"],
     "with a median of 5x5": ["post.median=5"],
     "every pixel of the row": ["post.masked_spacing=1"],
-    "masked medians over 19 and 19": _MASKED,
+    "masked medians over 19 and 19": [
+        *("post.masked_median=9", "post.masked_spacing=1", "post.masked_rows=15"),
+    ],
     "colours of 8 bits": ["post.colour_bits=12"],
-    "all of these": [*_SUMS, *_ISLAND, "post.median=5", *_MASKED, "post.colour_bits=12"],
 }
-"""What takes back each saving of `robust-small`: the filters are then those of `robust`."""
+ABLATIONS = {**_SAVINGS, "all of these": [key for keys in _SAVINGS.values() for key in keys]}
+"""What takes back each saving, and all of them: the filters are then those of `robust`."""
 
 
 def ablations() -> dict[str, Config]:
     """`robust-small` with each of them taken back, and with all, by name."""
-    base = Config.preset("robust-small")
+    base = Config.preset(SMALL)
     return {name: base.override([f"name={name}", *changes]) for name, changes in ABLATIONS.items()}
 
 

@@ -53,7 +53,7 @@ class StereoCore(wiring.Component):
     it is the last to need, by `latency` clocks where that pixel finds the core idle, and by
     `full_rate_latency` where pixels are always on offer: those wait in the front's queue for the steps of the
     pixels before them. Both are from the clock in which the pixel is taken to that in which the result can
-    be. `fifo_depth` results can wait at the end. Without a band there are no such numbers: they are None.
+    be. `queue_depth` results can wait at the end. Without a band there are no such numbers: they are None.
 
     Raises `ConfigError` for a configuration that has a model but no gateware.
 
@@ -72,7 +72,7 @@ class StereoCore(wiring.Component):
 
     latency: int | None = None
     full_rate_latency: int | None = None
-    fifo_depth: int | None = None
+    queue_depth: int | None = None
 
     def __init__(self, config: Config, *, settings: bool = False, left: bool = False) -> None:
         check_built(config)
@@ -89,7 +89,7 @@ class StereoCore(wiring.Component):
         if isinstance(self._winners, BandWinners):
             self.latency = self._front.latency + self._winners.latency
             self.full_rate_latency = self.latency + self._front.places * (config.steps - 1)
-            self.fifo_depth = self._winners.fifo_depth
+            self.queue_depth = self._winners.queue_depth
         super().__init__(
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),

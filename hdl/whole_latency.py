@@ -68,8 +68,7 @@ class WholeLatency:
         # winners are known so many columns later, which are the next line's.
         column = config.disparities - 2 + ahead + late if post.check else 0
         # With the last pixel: repeats of its column, and what follows from windows that look ahead.
-        repeats = post.island_columns // 2 if post.island else 0
-        in_a_row = 1 + repeats + (0 if post.check else ahead + reach.right)
+        in_a_row = 1 + post.island_reach[1] + (0 if post.check else ahead + reach.right)
         with asked():
             clocks = _up_to_winners(config, ahead) + _behind(config)
         return cls(
@@ -82,7 +81,7 @@ class WholeLatency:
             drain=drain_of(config),
             ahead=ahead,
             windows=(
-                *(((post.island_rows // 2, post.island_columns // 2),) if post.island else ()),
+                *((post.island_reach,) if post.island else ()),
                 *(((MEDIAN_REACH, MEDIAN_REACH),) if post.median else ()),
             ),
             masked=post.masked_reach,
@@ -134,7 +133,7 @@ def _behind(config: Config) -> int:
 
     clocks = max(-config.min_disparity, 0)  # border results that follow
     if post.island:
-        clocks += window(post.island_columns // 2, Island.latency)
+        clocks += window(post.island_reach[1], Island.latency)
     if post.fill:
         clocks += Fill.latency
     if post.median:

@@ -155,7 +155,7 @@ def _check_run(stream: StreamResult, job: Job) -> None:
         raise _fault(
             f"it took {len(stream.taken)} of {len(job.transfers)} pixels, gave {len(stream.cycles)} of"
             f" {job.expected} results, and then nothing for {job.patience} clocks",
-            # A result that is lost keeps its place in the FIFO, so in the end no more pixels are admitted.
+            # A result that is lost keeps its place in the queue, so in the end no more pixels are admitted.
             "results or sequencer" if taken_all else "results, sequencer or frame guard",
         )
     if len(stream.cycles) != job.expected:

@@ -27,6 +27,7 @@ class ResultQueue(wiring.Component):
 
     Members
     -------
+    depth : results that there are places for.
     credit : a result may be promised in this clock.
     promised : a result is promised.
     dropped : a result that was promised will not come.
@@ -36,7 +37,7 @@ class ResultQueue(wiring.Component):
 
     def __init__(self, shape: ShapeLike, latency: int, *, unseen: int = 0) -> None:
         self._shape, self._unseen = shape, unseen
-        self._depth = latency + QUEUE_LATENCY + 2 + unseen
+        self.depth = latency + QUEUE_LATENCY + 2 + unseen
         super().__init__(
             {
                 "credit": Out(1),
@@ -50,7 +51,7 @@ class ResultQueue(wiring.Component):
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        depth = self._depth
+        depth = self.depth
         result = Value.cast(self.result)
         taken = Signal()
         m.d.comb += taken.eq(self.o.valid & self.o.ready)

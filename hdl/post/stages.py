@@ -38,8 +38,8 @@ def island_of(config: Config) -> Island:
     """The stage of the island test."""
     post = config.post
     size = (config.result_bits, colour_size(config), config.max_width)
-    reach = {"rows": post.island_rows // 2, "columns": post.island_columns // 2}
-    return Island(*size, post.island, **reach, clocks=clocks_of(config.steps))
+    rows, columns = post.island_reach
+    return Island(*size, post.island, rows=rows, columns=columns, clocks=clocks_of(config.steps))
 
 
 def median_of(config: Config) -> Median:

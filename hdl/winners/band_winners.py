@@ -2,7 +2,6 @@
 
 from amaranth.hdl import Module, Mux, Shape, Signal
 from amaranth.lib import data, stream, wiring
-from amaranth.lib.fifo import SyncFIFOBuffered
 from amaranth.lib.wiring import Out
 
 from softdepth.hdl.arithmetic.pipeline import Pipeline, travelling
@@ -10,7 +9,7 @@ from softdepth.hdl.costs.band_costs import band_tags
 from softdepth.hdl.costs.bundle import winner_ports
 from softdepth.hdl.front.sequencer import tags_layout
 from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.spec.config import Config
@@ -46,8 +45,11 @@ class BandWinners(wiring.Component):
         found = self._tree.latency + self._sequence.latency
         self._tags_latency = tags_ahead + found
         self.layout = left_layout(config)
-        self.latency = ahead + found + config.steps - 1 + QUEUE_LATENCY
-        self.fifo_depth = -(-(self.latency + 2) // config.steps) + 3
+        found += ahead + config.steps - 1
+        self.latency = found + QUEUE_LATENCY
+        # The sequencer begins a result in the clock after it saw credit.
+        self._queue = ResultQueue(self.layout, -(-found // config.steps), unseen=1)
+        self.queue_depth = self._queue.depth
         ports = winner_ports(lanes=config.lanes, steps=config.steps, cost=cost, tags=band_tags(config))
         super().__init__({**ports, "o": Out(stream.Signature(self.layout))})
 
@@ -78,22 +80,14 @@ class BandWinners(wiring.Component):
         return m
 
     def _results(self, m: Module, emits: Signal, tags: data.View) -> None:
-        """The result FIFO, and the credits that keep it from overflowing."""
-        result = Signal(self.layout)
+        """The queue of results, which gives credit."""
+        m.submodules.queue = queue = self._queue
+        wiring.connect(m, queue.o, wiring.flipped(self.o))
         winner = self._sequence.o.index + self._config.min_disparity
         m.d.comb += [
-            result.value.eq(Mux(tags.code == Validity.BORDER, 0, winner)),
-            *[result[name].eq(tags[name]) for name in ("code", *MARKERS)],
+            self.credit.eq(queue.credit),
+            queue.promised.eq(self.begins),
+            queue.put.eq(emits),
+            queue.result.value.eq(Mux(tags.code == Validity.BORDER, 0, winner)),
+            *[queue.result[name].eq(tags[name]) for name in ("code", *MARKERS)],
         ]
-        m.submodules.results = fifo = SyncFIFOBuffered(width=self.layout.size, depth=self.fifo_depth)
-        m.d.comb += [
-            fifo.w_en.eq(emits),
-            fifo.w_data.eq(result),
-            self.o.valid.eq(fifo.r_rdy),
-            self.o.payload.eq(fifo.r_data),
-            fifo.r_en.eq(self.o.ready),
-        ]
-        credits_left = Signal(range(self.fifo_depth + 1), init=self.fifo_depth)
-        returned = self.o.valid & self.o.ready
-        m.d.sync += credits_left.eq(credits_left - self.begins + returned)
-        m.d.comb += self.credit.eq(credits_left > 1)  # one in the next clock, at least

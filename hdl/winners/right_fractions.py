@@ -13,17 +13,17 @@ from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 
 
 class RightFractions(wiring.Component):
-    """Like `RightWinner`, for fractions, each compared by a `FractionMin`, which takes several clocks.
+    """Like `RightNumbers`, for fractions, each compared by a `FractionMin`, which takes several clocks.
 
     A right pixel's best candidate so far waits in distributed RAM for its next candidate. In the same lane,
     that comes ``steps - 1`` steps later. If this is time enough, all candidates follow each other as in
-    `RightWinner`. With fewer steps, a right pixel has several bests, each among a part of its candidates
+    `RightNumbers`. With fewer steps, a right pixel has several bests, each among a part of its candidates
     (`right_parts`). A part has the candidates of the same step in every lane, where the next comes
     ``steps**2`` steps later, or in one of every few lanes, where it comes a multiple of that later. At the
     end the best of these is found; of equal ones, that with the smallest index. A later candidate never
     replaces an equal one.
 
-    Parameters and members are those of `RightWinner`, except for
+    Parameters and members are those of `RightNumbers`, except for
     latency : clocks from a slot's first step to its winner, which is held until the next.
     """
 

@@ -21,7 +21,7 @@ def is_fraction(cost: data.StructLayout) -> bool:
 
 
 def right_winner_members(lanes: int, steps: int, cost: data.StructLayout) -> dict[str, Member]:
-    """The members of a component that finds the right view's winner; `RightWinner` says what they mean."""
+    """The members of a component that finds the right view's winner; `RightNumbers` says what they mean."""
     return {
         "valid": In(1),
         "first": In(1),

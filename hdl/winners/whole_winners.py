@@ -19,7 +19,7 @@ from softdepth.hdl.signatures import TOLERANCE_BITS
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import Number, number_latency
-from softdepth.hdl.winners.right_winner import RightWinner
+from softdepth.hdl.winners.right_winner import right_winner
 from softdepth.hdl.winners.shapes import is_fraction
 from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
@@ -171,7 +171,7 @@ class WholeWinners(wiring.Component):
         result: data.View = here
         latency = self._ahead + judged
         if post.check:
-            m.submodules.right = right = RightWinner(lanes, steps, cost)
+            m.submodules.right = right = right_winner(lanes, steps, cost)
             m.submodules.check = check = LeftRight(config.disparities, found, post.tolerance)
             compared = judged - LeftRight.lead
             assert compared >= again

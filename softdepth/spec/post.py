@@ -96,8 +96,12 @@ class Post(Frozen):
     @property
     def below(self) -> int:
         """Rows below a pixel that its result depends on, beyond those of its cost."""
-        island = self.island_rows // 2 if self.island else 0
-        return island + (MEDIAN_REACH if self.median else 0) + self.masked_reach[0]
+        return self.island_reach[0] + (MEDIAN_REACH if self.median else 0) + self.masked_reach[0]
+
+    @property
+    def island_reach(self) -> tuple[int, int]:
+        """Rows and columns that the island test reaches on either side."""
+        return (self.island_rows // 2, self.island_columns // 2) if self.island else (0, 0)
 
     @property
     def masked_reach(self) -> tuple[int, int]:

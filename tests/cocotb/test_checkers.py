@@ -4,13 +4,13 @@ from collections.abc import Callable
 
 import pytest
 from amaranth.hdl import Module, ShapeLike
-from amaranth.lib import fifo, wiring
-from amaranth.lib.wiring import In, Out
+from amaranth.lib import wiring
 
 from softdepth.hdl.costs import band_costs, cost
 from softdepth.hdl.costs.criteria import column_sad, row_memory
 from softdepth.hdl.costs.fuzzy import cell_inference, mean_inference, rule_array
 from softdepth.hdl.front import line_buffer
+from softdepth.hdl.memory import result_queue
 from softdepth.hdl.verilog import to_verilog
 from softdepth.hdl.winners import band_winners
 from softdepth.sim.stalls import Pauses, Stalls
@@ -60,35 +60,28 @@ def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The result FIFO forgets a word whenever it is full to the last place but one and not read."""
+    """The result queue forgets a result that comes when all places are promised and none is read."""
 
-    class Leaky(wiring.Component):
-        def __init__(self, *, width: int, depth: int) -> None:
-            self._inner = fifo.SyncFIFOBuffered(width=width, depth=depth)
-            self._depth = depth
-            super().__init__(
-                {
-                    "w_en": In(1),
-                    "w_data": In(width),
-                    "r_en": In(1),
-                    "r_rdy": Out(1),
-                    "r_data": Out(width),
-                }
-            )
+    class Leaky(result_queue.ResultQueue):
+        def __init__(self, shape: ShapeLike, latency: int, *, unseen: int) -> None:
+            super().__init__(shape, latency, unseen=unseen)
+            self.inner = result_queue.ResultQueue(shape, latency, unseen=unseen)
 
         def elaborate(self, platform: object) -> Module:
             m = Module()
-            m.submodules.inner = inner = self._inner
+            m.submodules.inner = inner = self.inner
+            wiring.connect(m, inner.o, wiring.flipped(self.o))
+            lost = self.put & ~inner.credit & ~self.o.ready
             m.d.comb += [
-                inner.w_en.eq(self.w_en & ((inner.level < self._depth - 1) | self.r_en)),
-                inner.w_data.eq(self.w_data),
-                inner.r_en.eq(self.r_en),
-                self.r_rdy.eq(inner.r_rdy),
-                self.r_data.eq(inner.r_data),
+                self.credit.eq(inner.credit),
+                inner.promised.eq(self.promised),
+                inner.put.eq(self.put & ~lost),
+                inner.dropped.eq(lost),
+                inner.result.eq(self.result),
             ]
             return m
 
-    monkeypatch.setattr(band_winners, "SyncFIFOBuffered", Leaky)
+    monkeypatch.setattr(band_winners, "ResultQueue", Leaky)
 
 
 def take_rows_in_the_wrong_order(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -113,12 +113,14 @@ def keep_running_sums(monkeypatch: pytest.MonkeyPatch) -> None:
 def take_the_next_right_winner(monkeypatch: pytest.MonkeyPatch) -> None:
     """The check looks at the right pixel beside the one that was chosen: a slot too late."""
 
-    class Late(whole_winners.RightWinner):
-        def __init__(self, *sizes) -> None:
-            super().__init__(*sizes)
-            self.latency -= ROBUST.steps
+    right_winner = whole_winners.right_winner
 
-    monkeypatch.setattr(whole_winners, "RightWinner", Late)
+    def late(*sizes):
+        winner = right_winner(*sizes)
+        winner.latency -= ROBUST.steps
+        return winner
+
+    monkeypatch.setattr(whole_winners, "right_winner", late)
 
 
 def fill_across_lines(monkeypatch: pytest.MonkeyPatch) -> None:

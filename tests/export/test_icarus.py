@@ -83,7 +83,7 @@ def test_what_memories_hold_at_first_never_shows(name: str, tmp_path: Path) -> N
 def test_the_bench_sees_an_unknown_bit_and_a_lost_pixel(tmp_path: Path) -> None:
     config, pairs = SMALL["sad"], pairs_for(SMALL["sad"])
     text = exported("sad").verilog
-    unknown = re.sub(r"(storage\[\w+\] <= )[^;]*;", r"\1'bx;", text)  # the result FIFO's memory
+    unknown = re.sub(r"(storage\[\w+\] <= )[^;]*;", r"\1'bx;", text)  # the result queue's memory
     assert unknown != text
     assert any(
         line.startswith("X") for line in run_icarus(unknown, pixels(pairs, config), tmp_path).complaints

@@ -56,7 +56,7 @@ FAMILIES = {
 @pytest.mark.slow
 @pytest.mark.parametrize("command", FAMILIES)
 def test_memories_are_block_ram_in_every_family(command: str) -> None:
-    """Line buffer and row memories alike; what is left for logic is the result FIFO, far smaller."""
+    """Line buffer and row memories alike; what is left for logic is the result queue, far smaller."""
     config = Config.preset("sad").override(["disparities=4", "lanes=2", "max_width=640"])
     found = read(export_core(config).verilog, f"{command} -top {TOP}")
     block, bits = FAMILIES[command]

@@ -181,7 +181,7 @@ def test_latency_is_as_stated(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["sad, 1 lane", "sad, all lanes"])
 def test_back_pressure_reaches_the_input(name: str) -> None:
-    """Results are hardly taken: pixels wait outside as soon as the result FIFO is promised."""
+    """Results are hardly taken: pixels wait outside as soon as the result queue is promised."""
     c = CONFIGS[name]
     pairs = pairs_for(c)[:2]
     dut = StereoCore(c)
@@ -193,7 +193,7 @@ def test_back_pressure_reaches_the_input(name: str) -> None:
         for k, given in enumerate(result.given[: -behind - 1])
     ]
     # Two more wait in the queue. The last place is promised to the second of two in a row only.
-    assert max(promised) - 2 in (dut.fifo_depth - 1, dut.fifo_depth)
+    assert max(promised) - 2 in (dut.queue_depth - 1, dut.queue_depth)
 
 
 @pytest.mark.parametrize("reset_at", [1, 33])

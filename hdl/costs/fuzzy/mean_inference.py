@@ -96,7 +96,9 @@ class MeanInference(wiring.Component):
         g = choose(same, t, d).named("g")
         third = choose(c, d << 1, larger).named("third")
         sides = (g + (g << 2)) + (third + (third << 1))
-        slope = ((z << 3) - z) << 1  # 14 z
+        # 14 z, of z one clock later, which is kept anyway: right behind z it would be the longest path.
+        z = z.at(t.time)
+        slope = ((z << 3) - z) << 1
         num = add_with_carry(
             inverted_if(z_below, slope.within(0, 14 * one)),
             inverted_if(minus, sides.within(0, 13 * one)),

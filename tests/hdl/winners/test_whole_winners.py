@@ -11,7 +11,7 @@ from softdepth.hdl.post.left_right import LeftRight
 from softdepth.hdl.post.sixteenths import Sixteenths
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import Number
-from softdepth.hdl.winners.right_winner import RightWinner
+from softdepth.hdl.winners.right_winner import right_winner
 from softdepth.hdl.winners.shapes import sum_layout
 from softdepth.spec.config import QUOTIENT_BITS, Config
 from tests.support.simulation import observe, piped
@@ -84,7 +84,7 @@ def test_right_winner(lanes: int, steps: int, width: int, kind: str) -> None:
             # Slots follow each other at once or do not.
             clocks += [{"valid": 0, "first": 0, "last": 0}] * int(rng.integers(9) * (rng.random() < 0.2))
     layout = FRACTION if kind == "fractions" else sum_layout(11)
-    dut = RightWinner(lanes, steps, layout)
+    dut = right_winner(lanes, steps, layout)
     found = observe(dut, [*clocks, *[{"valid": 0, "first": 0}] * dut.latency], "winner")
     for number, line in enumerate(lines):
         for right in range(width):

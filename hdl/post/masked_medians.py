@@ -1,5 +1,8 @@
 """Two medians over pixels of similar colour: along the row, then down the column."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from amaranth.hdl import Cat, Const, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
@@ -13,6 +16,14 @@ from softdepth.hdl.post.layout import is_measured, post_layout
 from softdepth.hdl.post.rank import LowerMedian, median_latency
 from softdepth.hdl.post.slots import PostSlots
 from softdepth.hdl.post.stage import delayed, waiting
+
+
+@dataclass(frozen=True)
+class Samples:
+    """What a median is taken of, the newest first, and a bit for each that counts."""
+
+    values: list[Value]
+    keep: Value
 
 
 class MaskedMedians(wiring.Component):
@@ -60,64 +71,79 @@ class MaskedMedians(wiring.Component):
         self._rows, self._columns, self._spacing = rows, columns, spacing
         self._max_width, self._like = max_width, like
         self._holes, self.clocks = holes, clocks
-        self._layout = post_layout(value_bits, colour_bits)
+        layout = post_layout(value_bits, colour_bits)
+        self._passing = data.StructLayout({name: layout.members[name] for name in ("code", "confidence")})
         super().__init__(
             {
-                "i": In(stream.Signature(self._layout)),
+                "i": In(stream.Signature(layout)),
                 "o": Out(stream.Signature(post_layout(value_bits, 0))),
             }
         )
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        rows, columns, spacing, clocks = self._rows, self._columns, self._spacing, self.clocks
-        taps = columns // spacing  # on either side of the row's middle
-        members = self._layout.members
-        put = self._put()
-        m.submodules.slots = slots = PostSlots(rows, columns, self._max_width, clocks)
-        payload = self.i.payload
+        m.submodules.slots = slots = PostSlots(self._rows, self._columns, self._max_width, self.clocks)
         m.d.comb += [
             slots.valid.eq(self.i.valid),
             self.i.ready.eq(slots.ready),
-            *(getattr(slots, name).eq(payload[name]) for name in MARKERS),
+            *(getattr(slots, name).eq(self.i.payload[name]) for name in MARKERS),
         ]
-
-        # What is compared: a colour and, if not all results count, whether this one does.
-        compared = self._colour_bits + self._holes
-        colour: Value = payload.colour
-        if self._holes:
-            colour = Cat(colour, is_measured(payload.code))
-        kept_along = data.StructLayout({name: members[name] for name in ("code", "confidence")})
-
-        # Clock 1: the pixel, compared with those before it in its row.
-        slot = travelling(m, slots.slot, put - 1 if self._shared else 5 + clocks, "slot")
+        slot = travelling(m, slots.slot, self._put() - 1 if self._shared else 5 + self.clocks, "slot")
+        # Clock 1: the pixel, and what is compared: a colour and, if not all results count, whether this does.
+        payload = self.i.payload
+        colour = Cat(payload.colour, is_measured(payload.code)) if self._holes else payload.colour
         pixel = delayed(m, Cat(payload.value, payload.code, payload.confidence), 1, "pixel")
-        value, along = pixel[: self._value_bits], pixel[self._value_bits :]
         colours = [delayed(m, colour, 1, "colour")]
-        for clock in range(1, 4 + clocks):
+        for clock in range(1, 4 + self.clocks):
             colours.append(delayed(m, colours[-1], 1, f"late_{clock}"))
+
+        row, passing = self._along_row(m, slots, slot[1], pixel, colours[0])
+        answers = self._compared_above(m, slots, slot, colours)
+        median_of_row = Signal(self._value_bits)
+        column, rest, line_ends = self._down_column(m, slots, row, median_of_row, answers, passing)
+        median = self._medians(m, slot[2], row, column, median_of_row)
+        queue = self._results(m, slots, median, column, rest, line_ends)
+        # With a single median, one slot's row must not arrive together with another slot's column.
+        m.d.comb += slots.credit.eq(queue.credit & ~slot[-1] if self._shared else queue.credit)
+        return m
+
+    def _along_row(
+        self, m: Module, slots: PostSlots, slot: Value, pixel: Value, colour: Value
+    ) -> tuple[Samples, Value]:
+        """Compares the pixel with those before it in its row.
+
+        Gives the samples of the row's median, and what stays with the pixel in their middle.
+        """
+        columns, spacing = self._columns, self._spacing
+        taps = columns // spacing  # on either side of the row's middle
+        value, along = pixel[: self._value_bits], pixel[self._value_bits :]
         before = delayed(m, slots.before, 1, "before")
-        past = [Signal(compared, name=f"past_{k}", reset_less=True) for k in range(columns)]
+        past = [Signal(len(colour), name=f"past_{k}", reset_less=True) for k in range(columns)]
         values = [
             Signal(self._value_bits, name=f"value_{k}", reset_less=True) for k in range(2 * columns + 1)
         ]
         likes = [Signal(taps, name=f"like_{k}", reset_less=True) for k in range(columns + 1)]
-        passing = [Signal(kept_along, name=f"passing_{k}", reset_less=True) for k in range(columns + 1)]
+        passing = [Signal(self._passing, name=f"passing_{k}", reset_less=True) for k in range(columns + 1)]
         found = Cat(
-            self._alike(colours[0], past[k]) & before[k] for k in range(spacing - 1, taps * spacing, spacing)
+            self._alike(colour, past[k]) & before[k] for k in range(spacing - 1, taps * spacing, spacing)
         )
-        with m.If(slot[1]):
+        with m.If(slot):
             m.d.sync += [
-                Cat(*past).eq(Cat(colours[0], *past)),
+                Cat(*past).eq(Cat(colour, *past)),
                 Cat(*values).eq(Cat(value, *values)),
                 Cat(*likes).eq(Cat(found, *likes)),
                 Cat(Value.cast(p) for p in passing).eq(Cat(along, *(Value.cast(p) for p in passing))),
             ]
         row_values = [values[columns + spacing * k] for k in range(-taps, taps + 1)]
-        row_keep = self._kept([likes[columns + spacing * k] for k in range(-taps, 1)])
+        keep = self._kept([likes[columns + spacing * k] for k in range(-taps, 1)])
+        return Samples(row_values, keep), Value.cast(passing[columns])
 
-        # The same pixel, compared with those above it.
-        m.submodules.colours = above = RowStack([(compared, rows)], self._max_width, clocks)
+    def _compared_above(
+        self, m: Module, slots: PostSlots, slot: Sequence[Value], colours: Sequence[Value]
+    ) -> Value:
+        """The pixel is compared with those above it; the answers when it is in the middle of its row."""
+        rows, columns = self._rows, self._columns
+        m.submodules.colours = above = RowStack([(len(colours[0]), rows)], self._max_width, self.clocks)
         m.d.comb += [
             above.valid.eq(travelling(m, slots.stores, 1, "stores")[-1]),
             above.place.eq(delayed(m, slots.x, 1, "x")),
@@ -129,22 +155,28 @@ class MaskedMedians(wiring.Component):
         downs = [Signal(rows, name=f"down_{k}", reset_less=True) for k in range(columns + 1)]
         with m.If(slot[compares]):
             m.d.sync += Cat(*downs).eq(Cat(down, *downs))
+        return waiting(m, downs[columns], self._put() - compares - 1, "tag")
 
-        # The row's median goes on top of its column, together with the pixel's answers.
-        centre = Cat(values[columns], Value.cast(passing[columns]))
-        centre = waiting(m, centre, put - 2, "centre")
-        median_of_row = Signal(self._value_bits)
-        middle = delayed(m, median_of_row, put - self._row_ready, "middle")
+    def _down_column(
+        self, m: Module, slots: PostSlots, row: Samples, median: Value, answers: Value, passing: Value
+    ) -> tuple[Samples, Value, Value]:
+        """The row's median goes on top of its column, together with the pixel's answers.
+
+        Gives the samples of the column's median, what stayed with the one in their middle, and whether
+        the column is its line's last, `_looks_up` clocks after its slot.
+        """
+        rows, put = self._rows, self._put()
+        centre = waiting(m, Cat(row.values[len(row.values) // 2], passing), put - 2, "centre")
+        middle = delayed(m, median, put - self._row_ready, "middle")
         if self._holes:
-            passed = data.View(kept_along, centre[self._value_bits :])
+            passed = data.View(self._passing, centre[self._value_bits :])
             middle = Mux(is_measured(passed.code), middle, centre[: self._value_bits])
-        tag = Cat(waiting(m, downs[columns], put - compares - 1, "tag"), centre[self._value_bits :])
+        tag = Cat(answers, centre[self._value_bits :])
         m.submodules.rows = stack = RowStack(
-            [(self._value_bits, 2 * rows), (len(tag), rows)], self._max_width, clocks
+            [(self._value_bits, 2 * rows), (len(tag), rows)], self._max_width, self.clocks
         )
-        looks_up = put - RowStack.ahead
-        entering = travelling(m, slots.enters, looks_up, "enters")[-1]
-        line_ends = delayed(m, slots.o_eol, looks_up, "line_ends")
+        entering = travelling(m, slots.enters, self._looks_up, "enters")[-1]
+        line_ends = delayed(m, slots.o_eol, self._looks_up, "line_ends")
         at = Signal(range(self._max_width))
         with m.If(entering):
             m.d.sync += at.eq(Mux(line_ends, 0, at + 1))
@@ -157,50 +189,55 @@ class MaskedMedians(wiring.Component):
         wait = stack.latency - RowStack.ahead
         column = [delayed(m, middle, wait, "newest"), *stack.o["0"]]
         tags = [delayed(m, tag, wait, "newest_tag"), *stack.o["1"]]
-        column_there = put + wait
-        column_keep = self._kept([t[:rows] for t in tags])
+        return Samples(column, self._kept([t[:rows] for t in tags])), tags[rows][rows:], line_ends
 
-        # A register before the column's median, because all tags are in one word.
+    def _medians(
+        self, m: Module, slot: Value, row: Samples, column: Samples, median_of_row: Signal
+    ) -> LowerMedian:
+        """Gives the block that finds the column's median; a register is before it: all tags are one word."""
         if self._shared:
-            samples = max(len(row_values), len(column))
+            samples = max(len(row.values), len(column.values))
             none = Const(0, self._value_bits)  # a sample that is not kept, where the other median has more
-            row, down_column = (
-                Cat(*those, *[none] * (samples - len(those)), keep, Const(0, samples - len(those)))
-                for those, keep in ((row_values, row_keep), (column, column_keep))
-            )
+            padded = [
+                Cat(*s.values, *[none] * (samples - len(s.values)), s.keep, Const(0, samples - len(s.values)))
+                for s in (row, column)
+            ]
             m.submodules.medians = last = LowerMedian(samples, self._value_bits)
             given = Signal(samples * (self._value_bits + 1), reset_less=True)
-            m.d.sync += given.eq(Mux(slot[2], row, down_column))
+            m.d.sync += given.eq(Mux(slot, *padded))
             m.d.comb += median_of_row.eq(last.o)
         else:
-            m.submodules.along_row = first = LowerMedian(len(row_values), self._value_bits)
-            m.submodules.down_column = last = LowerMedian(len(column), self._value_bits)
-            given = delayed(m, Cat(*column, column_keep), 1, "given")
+            m.submodules.along_row = first = LowerMedian(len(row.values), self._value_bits)
+            m.submodules.down_column = last = LowerMedian(len(column.values), self._value_bits)
+            given = delayed(m, Cat(*column.values, column.keep), 1, "given")
             m.d.comb += [
-                Cat(Value.cast(first.i), first.keep).eq(Cat(*row_values, row_keep)),
+                Cat(Value.cast(first.i), first.keep).eq(Cat(*row.values, row.keep)),
                 median_of_row.eq(first.o),
             ]
         m.d.comb += Cat(Value.cast(last.i), last.keep).eq(given)
+        return last
 
+    def _results(
+        self, m: Module, slots: PostSlots, median: LowerMedian, column: Samples, rest: Value, line_ends: Value
+    ) -> ResultQueue:
+        """The queue in which results end, with their markers."""
         latency = self._after_slot()
         layout = post_layout(self._value_bits, 0)
-        m.submodules.queue = queue = ResultQueue(layout, -(-latency // clocks) + 1)
-        rest = data.View(kept_along, waiting(m, tags[rows][rows:], latency - column_there, "rest"))
-        result: Value = last.o
+        m.submodules.queue = queue = ResultQueue(layout, -(-latency // self.clocks) + 1)
+        computed = median.latency + 1
+        rest = data.View(self._passing, waiting(m, rest, computed, "rest"))
+        result: Value = median.o
         if self._holes:
-            result = Mux(
-                is_measured(rest.code), result, waiting(m, column[rows], latency - column_there, "whole")
-            )
+            whole = waiting(m, column.values[self._rows], computed, "whole")
+            result = Mux(is_measured(rest.code), result, whole)
         fresh = Signal(init=1)
         puts = travelling(m, slots.emits, latency, "emits")[-1]
         ends = delayed(m, Cat(slots.o_eof, slots.o_damaged), 1, "ends")
-        markers = Cat(line_ends, waiting(m, ends, looks_up - 1, "ends"))
-        eol, eof, damaged = waiting(m, markers, latency - looks_up, "markers")
+        markers = Cat(line_ends, waiting(m, ends, self._looks_up - 1, "ends"))
+        eol, eof, damaged = waiting(m, markers, latency - self._looks_up, "markers")
         with m.If(puts):
             m.d.sync += fresh.eq(eof)
         m.d.comb += [
-            # With a single median, one slot's row must not arrive together with another slot's column.
-            slots.credit.eq(queue.credit & ~slot[-1] if self._shared else queue.credit),
             queue.promised.eq(slots.emits),
             queue.put.eq(puts),
             queue.result.value.eq(result),
@@ -212,7 +249,7 @@ class MaskedMedians(wiring.Component):
             queue.result.damaged.eq(damaged),
         ]
         wiring.connect(m, queue.o, wiring.flipped(self.o))
-        return m
+        return queue
 
     @property
     def latency(self) -> int:
@@ -237,6 +274,11 @@ class MaskedMedians(wiring.Component):
         """
         put = max(self._row_ready, 2 + RowStack.ahead + self.clocks - 1)
         return put + put % 2 if self._shared else put
+
+    @property
+    def _looks_up(self) -> int:
+        """Clocks from a slot to when its column is looked up."""
+        return self._put() - RowStack.ahead
 
     def _after_slot(self) -> int:
         return self._put() + (self.clocks - 1) + 1 + median_latency(self._value_bits)

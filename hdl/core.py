@@ -7,6 +7,7 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.built import check_built
+from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
@@ -51,9 +52,10 @@ class StereoCore(wiring.Component):
 
     With a border band, the result of (x, y) follows the pixel at (x + reach_right, y + reach_rows), of which
     it is the last to need, by `latency` clocks where that pixel finds the core idle, and by
-    `full_rate_latency` where pixels are always on offer: those wait in the front's queue for the steps of the
-    pixels before them. Both are from the clock in which the pixel is taken to that in which the result can
-    be. `queue_depth` results can wait at the end. Without a band there are no such numbers: they are None.
+    `full_rate_latency` where pixels are always on offer: those wait before the sequencer for the steps of
+    the pixels before them. Both are from the clock in which the pixel is taken to that in which the result
+    can be. `queue_depth` results can wait at the end. Without a band there are no such numbers: they are
+    None.
 
     Raises `ConfigError` for a configuration that has a model but no gateware.
 
@@ -87,8 +89,8 @@ class StereoCore(wiring.Component):
             self._post = post_stages(config)
         self._thresholds = thresholds or {}
         if isinstance(self._winners, BandWinners):
-            self.latency = self._front.latency + self._winners.latency
-            self.full_rate_latency = self.latency + self._front.places * (config.steps - 1)
+            self.latency = Front.latency + BandCosts.waits + self._winners.latency
+            self.full_rate_latency = self.latency + (Front.places + BandCosts.places) * (config.steps - 1)
             self.queue_depth = self._winners.queue_depth
         super().__init__(
             {

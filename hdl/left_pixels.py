@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from softdepth.hdl.asked import asked
+from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.comparison import by_windows
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
@@ -42,7 +43,8 @@ class LeftPixels:
                 winners = winners_of(config, costs_of(config, Front(config).layout))
             assert isinstance(winners, BandWinners)
             seen = config.reach_rows * width + config.reach_right
-            return cls("guard", seen + _during(Front.latency + winners.latency, config.steps))
+            latency = Front.latency + BandCosts.waits + winners.latency
+            return cls("guard", seen + _during(latency, config.steps) + BandCosts.places)
         if config.min_disparity or config.colour_bits < config.pixel.bits:
             whole = WholeLatency.of(config)
             return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))

@@ -11,6 +11,7 @@ from softdepth.hdl.costs.lane import Lane, column_layout
 from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.frame_guard import item_layout
+from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.front.line_buffer import LineBuffer
 from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.sequencer import Sequencer, tags_layout
@@ -28,7 +29,7 @@ class BandCosts(wiring.Component):
 
     ::
 
-        i > sequencer > line buffer > right columns > lanes > costs
+        i > queue > sequencer > line buffer > right columns > lanes > costs
 
     ``steps`` clocks a pixel, without a pause between lines or frames. The pipeline never stalls: a pixel is
     admitted if there is credit. Pixels whose support goes beyond the image have results without costs, which
@@ -40,6 +41,10 @@ class BandCosts(wiring.Component):
     The others : `cost_ports` of `fraction_layout` and `band_tags`.
     """
 
+    waits = ItemQueue.latency
+    """Clocks from a pixel's arrival to its beginning, at least."""
+    places = ItemQueue.places
+    """Pixels that wait here."""
     tags_from_begin = 1
     """Clocks from a pixel's beginning to the tags of its first step."""
 
@@ -60,7 +65,11 @@ class BandCosts(wiring.Component):
         config = self._config
         control = Pipeline(m, levels=1)
         m.submodules.sequencer = sequencer = Sequencer(config)
-        wiring.connect(m, wiring.flipped(self.i), sequencer.i)
+        # The sequencer decides late in its clock, by the pixel itself, and that must not go on to the front,
+        # which may be far away.
+        m.submodules.arrived = arrived = ItemQueue(item_layout(config))
+        wiring.connect(m, wiring.flipped(self.i), arrived.i)
+        wiring.connect(m, arrived.o, sequencer.i)
         m.d.comb += [
             sequencer.credit.eq(self.credit),
             self.begins.eq(sequencer.issued),
@@ -80,7 +89,7 @@ class BandCosts(wiring.Component):
         first_of_line = control.input(sequencer.first_of_line, 1, "first_of_line", time=1)
         first_inner = control.input(sequencer.first_inner, 1, "first_inner", time=1)
 
-        left, right = self._columns(m, sequencer)
+        left, right = self._columns(m, sequencer.load, arrived.o.payload)
         m.submodules.right = columns = RightColumns(config, left.shape())
         m.d.comb += [
             columns.valid.eq(occurs["valid"][column_time]),
@@ -126,17 +135,17 @@ class BandCosts(wiring.Component):
         ]
         return m
 
-    def _columns(self, m: Module, sequencer: Sequencer) -> tuple[data.View, data.View]:
+    def _columns(self, m: Module, load: Signal, item: data.View) -> tuple[data.View, data.View]:
         """Both views' columns, top row first."""
-        config, item = self._config, self.i.payload
+        config = self._config
         size = config.pixel.size
         m.submodules.lines = lines = LineBuffer(2 * size, config.column_rows, config.max_width)
         left = Signal(column_layout(config))
         right = Signal(column_layout(config))
         m.d.comb += [
-            lines.en.eq(sequencer.load),
+            lines.en.eq(load),
             lines.x.eq(item.x),
-            lines.pixel.eq(Cat(*self._moved(m, sequencer.load, item))),
+            lines.pixel.eq(Cat(*self._moved(m, load, item))),
             left.eq(Cat(lines.column[row][:size] for row in range(config.column_rows))),
             right.eq(Cat(lines.column[row][size:] for row in range(config.column_rows))),
         ]

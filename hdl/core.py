@@ -11,6 +11,7 @@ from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
+from softdepth.hdl.front.item_queue import waiting_time
 from softdepth.hdl.left_pixels import LeftPixels
 from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.post.island import Island
@@ -88,9 +89,11 @@ class StereoCore(wiring.Component):
             self._winners = winners_of(config, self._costs)
             self._post = post_stages(config)
         self._thresholds = thresholds or {}
-        if isinstance(self._winners, BandWinners):
+        if isinstance(self._costs, BandCosts) and isinstance(self._winners, BandWinners):
             self.latency = Front.latency + BandCosts.waits + self._winners.latency
-            self.full_rate_latency = self.latency + (Front.places + BandCosts.places) * (config.steps - 1)
+            self.full_rate_latency = self.latency + sum(
+                waiting_time(places, config.steps) for places in (Front.places, self._costs.places)
+            )
             self.queue_depth = self._winners.queue_depth
         super().__init__(
             {

@@ -40,11 +40,13 @@ class LeftPixels:
         width = config.max_width
         if by_windows(config):
             with asked():
-                winners = winners_of(config, costs_of(config, Front(config).layout))
+                costs = costs_of(config, Front(config).layout)
+                winners = winners_of(config, costs)
+            assert isinstance(costs, BandCosts)
             assert isinstance(winners, BandWinners)
             seen = config.reach_rows * width + config.reach_right
-            latency = Front.latency + BandCosts.waits + winners.latency
-            return cls("guard", seen + _during(latency, config.steps) + BandCosts.places)
+            latency = Front.latency + costs.waits + winners.latency
+            return cls("guard", seen + _during(latency, config.steps) + costs.places)
         if config.min_disparity or config.colour_bits < config.pixel.bits:
             whole = WholeLatency.of(config)
             return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))

@@ -37,19 +37,19 @@ class BandCosts(wiring.Component):
 
     Members
     -------
+    places : pixels that wait for their beginning.
     i : the items of `FrameGuard`.
     The others : `cost_ports` of `fraction_layout` and `band_tags`.
     """
 
     waits = ItemQueue.latency
     """Clocks from a pixel's arrival to its beginning, at least."""
-    places = ItemQueue.places
-    """Pixels that wait here."""
     tags_from_begin = 1
     """Clocks from a pixel's beginning to the tags of its first step."""
 
     def __init__(self, config: Config) -> None:
         self._config = config
+        self.places = 1 if config.steps > 1 else 2
         self._lanes = [Lane(config) for _ in range(config.lanes)]
         lane = self._lanes[0]
         self._criteria_time = LineBuffer.latency + lane.criteria_latency
@@ -67,7 +67,7 @@ class BandCosts(wiring.Component):
         m.submodules.sequencer = sequencer = Sequencer(config)
         # The sequencer decides late in its clock, by the pixel itself, and that must not go on to the front,
         # which may be far away.
-        m.submodules.arrived = arrived = ItemQueue(item_layout(config))
+        m.submodules.arrived = arrived = ItemQueue(item_layout(config), places=self.places)
         wiring.connect(m, wiring.flipped(self.i), arrived.i)
         wiring.connect(m, arrived.o, sequencer.i)
         m.d.comb += [

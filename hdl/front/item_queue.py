@@ -1,19 +1,21 @@
 """A register stage in a stream."""
 
-from amaranth.hdl import Array, Module, ShapeLike, Signal
+from amaranth.hdl import Array, Module, Mux, ShapeLike, Signal
 from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
 
 
 class ItemQueue(wiring.Component):
-    """Two places, so that neither side's logic reaches through to the other: one item a clock.
+    """Places for items, so that neither side's logic reaches through to the other.
 
     Items go to the places in turn. An empty place takes whatever is offered, so that a register alone decides
-    over its many bits, which may lie far away; ``i.ready`` and ``o.valid`` are registers too.
+    over its many bits, which may lie far away; ``i.ready`` and ``o.valid`` are registers too. With two
+    places, one item a clock; with one, an item every other clock, and ``o.payload`` is a register.
 
     Parameters
     ----------
     shape : of an item.
+    places : 1 or 2.
 
     Members
     -------
@@ -24,21 +26,30 @@ class ItemQueue(wiring.Component):
     latency = 1
     places = 2
 
-    def __init__(self, shape: ShapeLike) -> None:
-        self._shape = shape
+    def __init__(self, shape: ShapeLike, *, places: int = places) -> None:
+        self._shape, self.places = shape, places
         super().__init__({"i": In(stream.Signature(shape)), "o": Out(stream.Signature(shape))})
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
         places = Array(Signal(self._shape, name=f"place_{k}", reset_less=True) for k in range(self.places))
-        oldest = Signal()  # the place that is emptied next
-        holding = Signal()  # one place at least holds an item
-        full = Signal()  # both do
         comes = Signal()
         goes = Signal()
         m.d.comb += [
             comes.eq(self.i.valid & self.i.ready),
             goes.eq(self.o.valid & self.o.ready),
+        ]
+        if self.places == 1:
+            full = Signal()
+            m.d.sync += full.eq(Mux(full, ~goes, comes))
+            m.d.comb += [self.i.ready.eq(~full), self.o.valid.eq(full), self.o.payload.eq(places[0])]
+            with m.If(~full):
+                m.d.sync += places[0].eq(self.i.payload)
+            return m
+        oldest = Signal()  # the place that is emptied next
+        holding = Signal()  # one place at least holds an item
+        full = Signal()  # both do
+        m.d.comb += [
             self.i.ready.eq(~full),
             self.o.valid.eq(holding),
             self.o.payload.eq(places[oldest]),
@@ -59,3 +70,12 @@ class ItemQueue(wiring.Component):
             with m.If(empty):
                 m.d.sync += place.eq(self.i.payload)
         return m
+
+
+def waiting_time(places: int, clocks: int) -> int:
+    """How much longer than `ItemQueue.latency` an item waits where there are always more: one leaves every
+    ``clocks`` clocks.
+
+    A place is filled in the clock after an item left, and left by that item when all places have been.
+    """
+    return places * clocks - 1 - ItemQueue.latency

@@ -35,7 +35,7 @@ OFFERS = Claim(
 )
 ITEMS = Claim(
     "the item queue neither loses, doubles nor reorders",
-    sizes="16 items told apart",
+    sizes="one place or two, 16 items told apart",
     depth="every run",
 )
 PROMISES = Claim(
@@ -99,6 +99,7 @@ class Watched(Component):
 
 BLOCKS = {
     "item queue": lambda: ItemQueue(BITS),
+    "item queue of one place": lambda: ItemQueue(BITS, places=1),
     "result queue": lambda: ResultQueue(data.StructLayout({"word": BITS}), LATENCY),
 }
 
@@ -117,18 +118,18 @@ def test_a_fault_is_refuted(name: str, fault: Fault, tmp_path: Path) -> None:
 
 
 class Ordered(Component):
-    """`ItemQueue` beside a plain count: as many items leave as came in but for two, and in their order."""
+    """`ItemQueue` beside a plain count: all items leave but those in its places, and in their order."""
 
     valid: In(1)
     ready: In(1)
 
-    def __init__(self, lost: bool) -> None:
-        self._lost = lost
+    def __init__(self, places: int, *, lost: bool) -> None:
+        self._places, self._lost = places, lost
         super().__init__()
 
     def elaborate(self, platform: object) -> Module:
         m = Module()
-        m.submodules.queue = queue = ItemQueue(4)
+        m.submodules.queue = queue = ItemQueue(4, places=self._places)
         sent, got = Signal(4), Signal(4)
         taken = Signal()
         m.d.comb += [
@@ -136,7 +137,9 @@ class Ordered(Component):
             queue.i.payload.eq(sent),
             queue.o.ready.eq(self.ready),
             taken.eq(self.valid & (True if self._lost else queue.i.ready)),
-            Assert((sent - got)[:4] <= ItemQueue.places),
+            Assert((sent - got)[:4] <= self._places),
+            Assert(queue.o.valid == (sent != got)),
+            Assert(queue.i.ready == ((sent - got)[:4] != self._places)),
         ]
         with m.If(taken):
             m.d.sync += sent.eq(sent + 1)
@@ -147,13 +150,15 @@ class Ordered(Component):
 
 
 @ITEMS.proven
-def test_items_are_neither_lost_nor_doubled(tmp_path: Path) -> None:
-    assert every_run(Ordered(lost=False), tmp_path) == "every run"
+@pytest.mark.parametrize("places", [1, 2])
+def test_items_are_neither_lost_nor_doubled(places: int, tmp_path: Path) -> None:
+    assert every_run(Ordered(places, lost=False), tmp_path) == "every run"
 
 
 @ITEMS.refuted
-def test_a_queue_that_is_overrun_is_refuted(tmp_path: Path) -> None:
-    assert proof(Ordered(lost=True), tmp_path) == "refuted"
+@pytest.mark.parametrize("places", [1, 2])
+def test_a_queue_that_is_overrun_is_refuted(places: int, tmp_path: Path) -> None:
+    assert proof(Ordered(places, lost=True), tmp_path) == "refuted"
 
 
 class Promised(Component):

@@ -123,8 +123,9 @@ def test_a_stage_that_waits_for_ready_is_found(block: type[Component], tmp_path:
     assert not listeners(block(), tmp_path, "o_ready") <= {"i_ready"}
 
 
-def test_a_queue_listens_to_no_ready(tmp_path: Path) -> None:
-    assert not listeners(ItemQueue(2), tmp_path, "o_ready")
+@pytest.mark.parametrize("places", [1, 2])
+def test_a_queue_listens_to_no_ready(places: int, tmp_path: Path) -> None:
+    assert not listeners(ItemQueue(2, places=places), tmp_path, "o_ready")
 
 
 BLOCKS: dict[str, Callable[[], Component]] = {

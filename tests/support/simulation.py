@@ -97,15 +97,16 @@ def stream_through(
     *,
     i_rate: float = 1.0,
     o_rate: float = 1.0,
+    o_every: int = 1,
     seed: int = 0,
     reset_at: int | None = None,
     patience: int = 300,
 ) -> Transfers:
     """Send packed payloads through ``i``, take what leaves ``o`` until nothing moves for ``patience`` clocks.
 
-    ``i_rate`` and ``o_rate`` are the probabilities of offering and of taking in a clock. The block is
-    reset for one clock after ``reset_at`` input transfers. Fails where ``o`` withdraws or alters what
-    it has offered, or where input is left over.
+    ``i_rate`` and ``o_rate`` are the probabilities of offering and of taking in a clock; ``o`` is taken in
+    every ``o_every``-th at most. The block is reset for one clock after ``reset_at`` input transfers. Fails
+    where ``o`` withdraws or alters what it has offered, or where input is left over.
     """
     random = Random(seed)
     result = Transfers()
@@ -130,7 +131,7 @@ def stream_through(
             if not offered and sent < len(payloads) and random.random() < i_rate:
                 offered = True
                 ctx.set(i_payload, payloads[sent])
-            ready = random.random() < o_rate
+            ready = random.random() < o_rate and clock % o_every == 0
             ctx.set(dut.i.valid, offered)
             ctx.set(dut.o.ready, ready)
             _, _, i_ready, o_valid, o_bits = await ctx.tick().sample(dut.i.ready, dut.o.valid, o_payload)

@@ -1,4 +1,4 @@
-"""ItemQueue: items pass unchanged and in order, at full rate."""
+"""ItemQueue: items pass unchanged and in order, one a clock, or one every other clock."""
 
 from random import Random
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from amaranth.lib import data
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.front.item_queue import ItemQueue, waiting_time
 from tests.support.simulation import Transfers, stream_through
 
 LAYOUT = data.StructLayout({"number": 9, "noise": 24})
@@ -18,9 +18,9 @@ def items(count: int) -> list[dict[str, Any]]:
     return [{"number": k, "noise": random.getrandbits(24)} for k in range(count)]
 
 
-def run(sent: list[dict[str, Any]], **keys: Any) -> Transfers:
+def run(sent: list[dict[str, Any]], places: int, **keys: Any) -> Transfers:
     packed = [LAYOUT.const(item).as_value().value for item in sent]
-    return stream_through(ItemQueue(LAYOUT), packed, **keys)
+    return stream_through(ItemQueue(LAYOUT, places=places), packed, **keys)
 
 
 def check(sent: list[dict[str, Any]], got: list[Any]) -> None:
@@ -28,42 +28,57 @@ def check(sent: list[dict[str, Any]], got: list[Any]) -> None:
     assert [{name: o[name] for name in LAYOUT.members} for o in got] == sent
 
 
+@pytest.mark.parametrize("places", [1, 2])
 @pytest.mark.parametrize(("i_rate", "o_rate"), [(1, 0.5), (0.5, 1), (0.6, 0.6), (0.2, 0.9), (0.9, 0.2)])
-def test_any_stalls(i_rate: float, o_rate: float) -> None:
+def test_any_stalls(i_rate: float, o_rate: float, places: int) -> None:
     sent = items(300)
-    check(sent, run(sent, i_rate=i_rate, o_rate=o_rate, seed=3).payloads)
+    check(sent, run(sent, places, i_rate=i_rate, o_rate=o_rate, seed=3).payloads)
 
 
+@pytest.mark.parametrize("places", [1, 2])
 @pytest.mark.parametrize("seed", range(20))
-def test_bursts(seed: int) -> None:
+def test_bursts(seed: int, places: int) -> None:
     """Either side moves at a rate of its own, drawn anew for each run: full, empty and in between."""
     random = Random(seed)
     sent = items(60)
     rates = {side: random.choice((1.0, 0.95, 0.5, 0.1)) for side in ("i_rate", "o_rate")}
-    check(sent, run(sent, seed=seed, **rates).payloads)
+    check(sent, run(sent, places, seed=seed, **rates).payloads)
 
 
-def test_one_item_a_clock() -> None:
+@pytest.mark.parametrize("places", [1, 2])
+def test_one_item_a_clock_or_every_other(places: int) -> None:
     sent = items(50)
-    result = run(sent)
+    result = run(sent, places)
     check(sent, result.payloads)
-    assert result.taken == list(range(50))
+    assert result.taken == list(range(0, 50 * 2 // places, 2 // places))
     assert result.given == [clock + ItemQueue.latency for clock in result.taken]
 
 
-def test_holds_two_and_refuses_the_third() -> None:
+@pytest.mark.parametrize("places", [1, 2])
+@pytest.mark.parametrize("clocks", [2, 3, 5])
+def test_waiting_time(places: int, clocks: int) -> None:
+    """Items are always on offer, and one leaves every so many clocks."""
+    sent = items(40)
+    result = run(sent, places, o_every=clocks)
+    waits = [given - taken for taken, given in zip(result.taken, result.given, strict=True)]
+    assert set(waits[places:]) == {ItemQueue.latency + waiting_time(places, clocks)}
+
+
+@pytest.mark.parametrize("places", [1, 2])
+def test_holds_so_many_and_refuses_the_next(places: int) -> None:
     """``ready`` is a register: it does not see in the same clock that the output is taken."""
     sent = items(40)
-    result = run(sent, o_rate=0.15, seed=2)
+    result = run(sent, places, o_rate=0.15, seed=2)
     held = [
         sum(t < clock for t in result.taken) - sum(t < clock for t in result.given)
         for clock in range(result.given[-1])
     ]
-    assert max(held) == 2
+    assert max(held) == places
 
 
+@pytest.mark.parametrize("places", [1, 2])
 @pytest.mark.parametrize("reset_at", [1, 2, 7])
-def test_reset_empties_it(reset_at: int) -> None:
+def test_reset_empties_it(reset_at: int, places: int) -> None:
     sent = items(30)
-    result = run(sent, reset_at=reset_at, o_rate=0.3)
+    result = run(sent, places, reset_at=reset_at, o_rate=0.3)
     check(sent[reset_at:], result.payloads[result.before_reset :])

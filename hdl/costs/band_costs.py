@@ -65,7 +65,7 @@ class BandCosts(wiring.Component):
         config = self._config
         control = Pipeline(m, levels=1)
         m.submodules.sequencer = sequencer = Sequencer(config)
-        # The sequencer decides late in its clock, by the pixel itself, and that must not go on to the front,
+        # The sequencer decides late in its clock, by the pixel itself. Its answer must not travel on to the front,
         # which may be far away.
         m.submodules.arrived = arrived = ItemQueue(item_layout(config), places=self.places)
         wiring.connect(m, wiring.flipped(self.i), arrived.i)

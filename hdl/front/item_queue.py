@@ -27,6 +27,8 @@ class ItemQueue(wiring.Component):
     places = 2
 
     def __init__(self, shape: ShapeLike, *, places: int = places) -> None:
+        if places not in (1, 2):
+            raise ValueError(f"a queue of {places} places, but it is built with 1 or 2")
         self._shape, self.places = shape, places
         super().__init__({"i": In(stream.Signature(shape)), "o": Out(stream.Signature(shape))})
 
@@ -73,9 +75,9 @@ class ItemQueue(wiring.Component):
 
 
 def waiting_time(places: int, clocks: int) -> int:
-    """How much longer than `ItemQueue.latency` an item waits where there are always more: one leaves every
-    ``clocks`` clocks.
+    """How much longer than `ItemQueue.latency` an item waits where more are always on offer.
 
-    A place is filled in the clock after an item left, and left by that item when all places have been.
+    One leaves every ``clocks`` clocks, at least 2 with one place. Another enters a clock later, and leaves
+    ``places * clocks`` clocks after that one did.
     """
     return places * clocks - 1 - ItemQueue.latency

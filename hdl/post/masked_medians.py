@@ -20,7 +20,7 @@ from softdepth.hdl.post.stage import delayed, waiting
 
 @dataclass(frozen=True)
 class Samples:
-    """What a median is taken of, the newest first, and a bit for each that counts."""
+    """What a median is taken of, the newest first, and for each whether it counts."""
 
     values: list[Value]
     keep: Value
@@ -141,7 +141,7 @@ class MaskedMedians(wiring.Component):
     def _compared_above(
         self, m: Module, slots: PostSlots, slot: Sequence[Value], colours: Sequence[Value]
     ) -> Value:
-        """The pixel is compared with those above it; the answers when it is in the middle of its row."""
+        """Compares the pixel with those above it; gives the answers when it is in the middle of its row."""
         rows, columns = self._rows, self._columns
         m.submodules.colours = above = RowStack([(len(colours[0]), rows)], self._max_width, self.clocks)
         m.d.comb += [
@@ -194,7 +194,7 @@ class MaskedMedians(wiring.Component):
     def _medians(
         self, m: Module, slot: Value, row: Samples, column: Samples, median_of_row: Signal
     ) -> LowerMedian:
-        """Gives the block that finds the column's median; a register is before it: all tags are one word."""
+        """Gives the block that finds the column's median, behind a register: all tags come in one word."""
         if self._shared:
             samples = max(len(row.values), len(column.values))
             none = Const(0, self._value_bits)  # a sample that is not kept, where the other median has more

@@ -60,7 +60,7 @@ def shift_the_line_buffer(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def drop_under_back_pressure(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The result queue forgets a result that comes when all places are promised and none is read."""
+    """The result queue forgets a result, and its place is free again, where no more are promised or read."""
 
     class Leaky(result_queue.ResultQueue):
         def __init__(self, shape: ShapeLike, latency: int, *, unseen: int) -> None:

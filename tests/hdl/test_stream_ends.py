@@ -52,7 +52,7 @@ def queue_of(dut: Component) -> type | None:
 ENDS = Claim(
     "what the input, the descriptors, the winners and every stage of `post` offer stays unchanged until it is"
     " taken: their streams are wired straight from one of these queues",
-    sizes="small; winners of a core without a border band, as the others' queue is Amaranth's own",
+    sizes="small",
     depth="structure",
 )
 
@@ -60,16 +60,17 @@ ENDS = Claim(
 SMALL = ("max_width=32", "disparities=4", "lanes=2")
 
 
-def winners() -> Component:
+def winners(preset: str) -> Component:
     """The winners within a core."""
-    core: Any = Fragment.get(StereoCore(Config.preset("robust").override(SMALL)), None)
+    core: Any = Fragment.get(StereoCore(Config.preset(preset).override(SMALL)), None)
     return next(part.origins[0] for part, name, *_ in core.subfragments if name == "winners")
 
 
 BLOCKS: dict[str, tuple[Callable[[], Component], type]] = {
     "front": (lambda: Front(Config.preset("sad").override(SMALL)), ItemQueue),
     "descriptors": (lambda: Front(Config.preset("robust").override(SMALL)), ResultQueue),
-    "winners": (winners, ResultQueue),
+    "winners": (lambda: winners("robust"), ResultQueue),
+    "winners with a border band": (lambda: winners("sad"), ResultQueue),
     "island": (lambda: Island(1, 1, 8, 5, rows=2, columns=2), ResultQueue),
     "fill": (lambda: Fill(1, 1, 8), ItemQueue),
     "packed queue": (lambda: PackedQueue(4, 40), ResultQueue),

@@ -65,8 +65,8 @@ class BandCosts(wiring.Component):
         config = self._config
         control = Pipeline(m, levels=1)
         m.submodules.sequencer = sequencer = Sequencer(config)
-        # The sequencer decides late in its clock, by the pixel itself. Its answer must not travel on to the front,
-        # which may be far away.
+        # The sequencer decides late in its clock, by the pixel itself. Its answer must not travel on to the
+        # front, which may be far away.
         m.submodules.arrived = arrived = ItemQueue(item_layout(config), places=self.places)
         wiring.connect(m, wiring.flipped(self.i), arrived.i)
         wiring.connect(m, arrived.o, sequencer.i)

@@ -92,7 +92,7 @@ class StereoCore(wiring.Component):
         if isinstance(self._costs, BandCosts) and isinstance(self._winners, BandWinners):
             self.latency = Front.latency + BandCosts.waits + self._winners.latency
             self.full_rate_latency = self.latency + sum(
-                waiting_time(places, config.steps) for places in (Front.places, self._costs.places)
+                waiting_time(places, config.steps) for places in (self._front.places, self._costs.places)
             )
             self.queue_depth = self._winners.queue_depth
         super().__init__(

@@ -8,6 +8,7 @@ from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.comparison import by_windows
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
+from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.post.stages import masked_medians_of
 from softdepth.hdl.whole_latency import WholeLatency
@@ -40,24 +41,29 @@ class LeftPixels:
         width = config.max_width
         if by_windows(config):
             with asked():
-                costs = costs_of(config, Front(config).layout)
+                front = Front(config)
+                costs = costs_of(config, front.layout)
                 winners = winners_of(config, costs)
             assert isinstance(costs, BandCosts)
             assert isinstance(winners, BandWinners)
             seen = config.reach_rows * width + config.reach_right
             latency = Front.latency + costs.waits + winners.latency
-            return cls("guard", seen + _during(latency, config.steps) + costs.places)
+            return cls("guard", seen + _during(latency, config.steps) + front.places + costs.places)
         if config.min_disparity or config.colour_bits < config.pixel.bits:
             whole = WholeLatency.of(config)
-            return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))
+            places = (
+                whole.rows * width + whole.column + _during(whole.clocks, config.steps) + ItemQueue.places
+            )
+            return cls("guard", places)
         if config.post.masked_median:
             rows, columns = config.post.masked_reach
             with asked():
                 stage = masked_medians_of(config)
-            return cls("medians", rows * width + columns + _during(stage.latency, stage.clocks))
+            places = rows * width + columns + _during(stage.latency, stage.clocks) + ItemQueue.places
+            return cls("medians", places)
         return cls("results", 0)
 
 
 def _during(clocks: int, steps: int) -> int:
     """Pixels that may come in so many clocks, and in those that a result waits for at the core's end."""
-    return -(-(clocks + QUEUE_LATENCY) // steps) + Front.places + 1
+    return -(-(clocks + QUEUE_LATENCY) // steps) + 1

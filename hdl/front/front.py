@@ -33,6 +33,7 @@ class Front(wiring.Component):
 
     Members
     -------
+    places : items that wait here where the room behind is busy.
     i : stream of `pair_layout(config.pixel)`.
     o : stream of `layout`: `item_layout` of windows of pixels, or the raster of `Descriptors`.
     kept : with ``left``, a stream of the left pixels of well-formed frames, one for each result to come.
@@ -43,11 +44,10 @@ class Front(wiring.Component):
     """Clocks from a pair to its item."""
     to_descriptors = ItemQueue.latency + FrameEnds.latency + ItemQueue.latency
     """Clocks from a pair to the descriptors' input."""
-    places = ItemQueue.places
-    """Items that wait here where the room behind is busy."""
 
     def __init__(self, config: Config, *, left: int = 0) -> None:
         self._config, self._left = config, left
+        self.places = 1 if by_windows(config) and config.steps > 1 else 2
         self._descriptors = None if by_windows(config) else self._wanted()
         self.layout: data.StructLayout = (
             self._descriptors.layout if self._descriptors else item_layout(config)
@@ -67,7 +67,7 @@ class Front(wiring.Component):
         m = Module()
         config = self._config
         m.submodules.guard = guard = FrameGuard(config)
-        m.submodules.queue = queue = ItemQueue(item_layout(config))
+        m.submodules.queue = queue = ItemQueue(item_layout(config), places=self.places)
         m.d.comb += [
             guard.i.valid.eq(self.i.valid),
             guard.i.payload.eq(self.i.payload),

@@ -7,11 +7,9 @@ from amaranth.lib import stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.built import check_built
-from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.costs.rooms import costs_of
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.item_queue import waiting_time
 from softdepth.hdl.left_pixels import LeftPixels
 from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.post.island import Island
@@ -27,7 +25,6 @@ from softdepth.hdl.signatures import (
     thresholds_layout,
 )
 from softdepth.hdl.thresholds import told
-from softdepth.hdl.winners.band_winners import BandWinners
 from softdepth.hdl.winners.rooms import winners_of
 from softdepth.hdl.winners.whole_winners import WholeWinners
 from softdepth.spec.config import Config
@@ -51,12 +48,8 @@ class StereoCore(wiring.Component):
     as it looks ahead (those of the costs take ``steps`` clocks each). A frame's last results leave
     without waiting for the next frame. During reset no pixel is taken: ``i.ready`` is low.
 
-    With a border band, the result of (x, y) follows the pixel at (x + reach_right, y + reach_rows), of which
-    it is the last to need, by `latency` clocks where that pixel finds the core idle, and by
-    `full_rate_latency` where pixels are always on offer: those wait before the sequencer for the steps of
-    the pixels before them. Both are from the clock in which the pixel is taken to that in which the result
-    can be. `queue_depth` results can wait at the end. Without a band there are no such numbers: they are
-    None.
+    `BandLatency` states by how many clocks a result follows the last pixel that it needs in a core with a
+    border band, `WholeLatency` in the others.
 
     Raises `ConfigError` for a configuration that has a model but no gateware.
 
@@ -73,10 +66,6 @@ class StereoCore(wiring.Component):
     settings, faults : with ``settings``, what `settings_layout` says, and the faults of the clock before.
     """
 
-    latency: int | None = None
-    full_rate_latency: int | None = None
-    queue_depth: int | None = None
-
     def __init__(self, config: Config, *, settings: bool = False, left: bool = False) -> None:
         check_built(config)
         self._config, self._takes_settings = config, settings
@@ -89,12 +78,6 @@ class StereoCore(wiring.Component):
             self._winners = winners_of(config, self._costs)
             self._post = post_stages(config)
         self._thresholds = thresholds or {}
-        if isinstance(self._costs, BandCosts) and isinstance(self._winners, BandWinners):
-            self.latency = Front.latency + BandCosts.waits + self._winners.latency
-            self.full_rate_latency = self.latency + sum(
-                waiting_time(places, config.steps) for places in (self._front.places, self._costs.places)
-            )
-            self.queue_depth = self._winners.queue_depth
         super().__init__(
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),

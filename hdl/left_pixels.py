@@ -4,16 +4,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 from softdepth.hdl.asked import asked
-from softdepth.hdl.costs.band_costs import BandCosts
+from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.costs.comparison import by_windows
-from softdepth.hdl.costs.rooms import costs_of
-from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.post.stages import masked_medians_of
 from softdepth.hdl.whole_latency import WholeLatency
-from softdepth.hdl.winners.band_winners import BandWinners
-from softdepth.hdl.winners.rooms import winners_of
 from softdepth.spec.config import Config
 
 Origin = Literal["results", "medians", "guard"]
@@ -40,30 +36,20 @@ class LeftPixels:
         """Derived from what the core's blocks state."""
         width = config.max_width
         if by_windows(config):
-            with asked():
-                front = Front(config)
-                costs = costs_of(config, front.layout)
-                winners = winners_of(config, costs)
-            assert isinstance(costs, BandCosts)
-            assert isinstance(winners, BandWinners)
+            band = BandLatency.of(config)
             seen = config.reach_rows * width + config.reach_right
-            latency = Front.latency + costs.waits + winners.latency
-            return cls("guard", seen + _during(latency, config.steps) + front.places + costs.places)
+            return cls("guard", seen + _during(band.idle, config.steps, waiting=band.waiting))
         if config.min_disparity or config.colour_bits < config.pixel.bits:
             whole = WholeLatency.of(config)
-            places = (
-                whole.rows * width + whole.column + _during(whole.clocks, config.steps) + ItemQueue.places
-            )
-            return cls("guard", places)
+            return cls("guard", whole.rows * width + whole.column + _during(whole.clocks, config.steps))
         if config.post.masked_median:
             rows, columns = config.post.masked_reach
             with asked():
                 stage = masked_medians_of(config)
-            places = rows * width + columns + _during(stage.latency, stage.clocks) + ItemQueue.places
-            return cls("medians", places)
+            return cls("medians", rows * width + columns + _during(stage.latency, stage.clocks))
         return cls("results", 0)
 
 
-def _during(clocks: int, steps: int) -> int:
-    """Pixels that may come in so many clocks, and in those that a result waits for at the core's end."""
-    return -(-(clocks + QUEUE_LATENCY) // steps) + 1
+def _during(clocks: int, steps: int, *, waiting: int = ItemQueue.places) -> int:
+    """Pixels that wait, and those that come in so many clocks and in those that a result takes at the end."""
+    return -(-(clocks + QUEUE_LATENCY) // steps) + 1 + waiting

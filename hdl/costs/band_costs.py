@@ -11,7 +11,7 @@ from softdepth.hdl.costs.lane import Lane, column_layout
 from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.frame_guard import item_layout
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.front.item_queue import ItemQueue, places_for
 from softdepth.hdl.front.line_buffer import LineBuffer
 from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.sequencer import Sequencer, tags_layout
@@ -49,7 +49,7 @@ class BandCosts(wiring.Component):
 
     def __init__(self, config: Config) -> None:
         self._config = config
-        self.places = 1 if config.steps > 1 else 2
+        self.places = places_for(config.steps)
         self._lanes = [Lane(config) for _ in range(config.lanes)]
         lane = self._lanes[0]
         self._criteria_time = LineBuffer.latency + lane.criteria_latency

@@ -8,7 +8,7 @@ from softdepth.hdl.costs.comparison import by_windows, plan
 from softdepth.hdl.front.descriptors import Descriptors
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.front.item_queue import ItemQueue, places_for
 from softdepth.hdl.front.overlap import Overlap
 from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.memory.kept import Kept
@@ -47,7 +47,7 @@ class Front(wiring.Component):
 
     def __init__(self, config: Config, *, left: int = 0) -> None:
         self._config, self._left = config, left
-        self.places = 1 if by_windows(config) and config.steps > 1 else 2
+        self.places = places_for(config.steps if by_windows(config) else 1)
         self._descriptors = None if by_windows(config) else self._wanted()
         self.layout: data.StructLayout = (
             self._descriptors.layout if self._descriptors else item_layout(config)

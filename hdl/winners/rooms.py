@@ -14,4 +14,9 @@ def winners_of(config: Config, costs: BandCosts | WholeCosts) -> BandWinners | W
     """A component with `winner_ports` that match `costs`, and the stream ``o`` of results."""
     if isinstance(costs, WholeCosts):
         return WholeWinners(from_zero(config), costs.layout, colour_size(config), costs.latency)
+    return band_winners(config, costs)
+
+
+def band_winners(config: Config, costs: BandCosts) -> BandWinners:
+    """The same of criteria that have a border band."""
     return BandWinners(config, fraction_layout(config), ahead=costs.latency, tags_ahead=costs.tags_ahead)

@@ -41,9 +41,8 @@ def info(
 
 def facts(config: Config, clock: float, width: int, height: int) -> dict[str, str]:
     """What follows from a configuration, as label and text; `clock` in MHz, the frame in pixels."""
-    from softdepth.hdl.asked import asked
+    from softdepth.hdl.band_latency import BandLatency
     from softdepth.hdl.built import missing
-    from softdepth.hdl.core import StereoCore
     from softdepth.hdl.costs.comparison import by_windows
     from softdepth.hdl.signatures import pair_layout, result_layout
 
@@ -51,10 +50,7 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         return _facts_of_any(config) | {"gateware": f"none of {', '.join(gaps)}: models alone"}
     if not by_windows(config):
         return _facts_of_whole(config, clock, width, height)
-    with asked():
-        core = StereoCore(config)
-        latency, full_rate_latency = core.latency, core.full_rate_latency
-        del core  # Amaranth is silent from here on
+    band = BandLatency.of(config)
     line_bits, row_bits = memory_bits(config)
     cycles = width * height * config.steps
     return {
@@ -64,8 +60,8 @@ def facts(config: Config, clock: float, width: int, height: int) -> dict[str, st
         "disparity": f"{config.result_bits} bits{', signed' if config.signed else ''}",
         "input payload": f"{pair_layout(config.pixel).size} bits",
         "output payload": f"{result_layout(config).size} bits",
-        "latency": f"{latency} clocks after the last pixel of its window",
-        "latency at full rate": f"{full_rate_latency} clocks where pixels are always on offer",
+        "latency": f"{band.idle} clocks after the last pixel of its window",
+        "latency at full rate": f"{band.full_rate} clocks where pixels are always on offer",
         "line buffer": f"{line_bits} bits, {config.column_rows - 1} lines of {config.max_width} pixel pairs",
         "row memories": f"{row_bits} bits, {config.stored_rows} rows of {config.places} costs in each lane",
         "multipliers": f"{config.multipliers} of {MULTIPLIER_BITS} x {MULTIPLIER_BITS} bits",

@@ -7,7 +7,9 @@ from amaranth.hdl import Value
 from amaranth.lib import data
 from amaranth.lib.wiring import In
 
+from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.core import StereoCore
+from softdepth.hdl.costs.comparison import by_windows
 from softdepth.hdl.signatures import COUNTER_BITS
 from softdepth.hdl.text.rtlil import CLOCK, RESET, ports_of
 from softdepth.hdl.text.rtlil import Port as Source
@@ -49,7 +51,7 @@ class Interface:
     name : of its module.
     ports : in the module's order.
     codes : validity codes that can occur.
-    latency, full_rate_latency : clocks, as `StereoCore` states them of cores with a border band.
+    latency, full_rate_latency : clocks, as `BandLatency` states them of cores with a border band.
     whole : of cores without one, from which pixel `latency` counts, and what a frame takes.
     """
 
@@ -69,8 +71,9 @@ def interface_of(core: StereoCore, config: Config, name: str) -> Interface:
     measured = (Validity.FULL, Validity.PARTIAL, Validity.BORDER)
     few = core.o.payload.shape()["code"].width == max(measured).bit_length()
     described = (name, config, tuple(ports), measured if few else tuple(Validity))
-    if core.latency is not None:
-        return Interface(*described, core.latency, core.full_rate_latency)
+    if by_windows(config):
+        band = BandLatency.of(config)
+        return Interface(*described, band.idle, band.full_rate)
     whole = WholeLatency.of(config)
     return Interface(*described, whole.clocks, None, whole)
 

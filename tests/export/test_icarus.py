@@ -103,7 +103,7 @@ CORES = [
     *(("paper", 8, lanes) for lanes in (1, 2, 4, 8)),
 ]
 SEEN_OUTSIDE = {("sad", 16, 4): 27, ("lite", 19, 1): 88, ("sad", 64, 1): 211}
-"""Clocks at full rate, as benches that know nothing of `StereoCore.full_rate_latency` have counted them."""
+"""Clocks at full rate, as benches that know nothing of `BandLatency` have counted them."""
 
 
 @pytest.mark.parametrize(("preset", "disparities", "lanes"), [*CORES, ("lite", 19, 1), ("sad", 64, 1)])

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from softdepth.golden.fixed_model import disparity, trace
 from softdepth.golden.maps import DisparityMap
+from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.front.front import Front
@@ -180,7 +181,7 @@ def test_latency_is_as_stated(name: str) -> None:
     waits = [b - a for a, b in pairwise(result.taken[behind - 1 :])]
     clocks = [result.given[k] - last[k] for k in range(with_pixels) if waits[k] > 3 * c.steps]
     assert len(clocks) > with_pixels // 2
-    assert set(clocks) == {dut.latency}
+    assert set(clocks) == {BandLatency.of(c).idle}
 
 
 @pytest.mark.parametrize("name", ["sad, 1 lane", "sad, all lanes"])
@@ -197,7 +198,8 @@ def test_back_pressure_reaches_the_input(name: str) -> None:
         for k, given in enumerate(result.given[: -behind - 1])
     ]
     # More wait before the sequencer. The last place is promised to the second of two in a row only.
-    assert max(promised) - Front(c).places - BandCosts(c).places in (dut.queue_depth - 1, dut.queue_depth)
+    band = BandLatency.of(c)
+    assert max(promised) - band.waiting in (band.results - 1, band.results)
 
 
 @pytest.mark.parametrize("reset_at", [1, 33])

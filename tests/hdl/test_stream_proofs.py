@@ -13,7 +13,7 @@ from typing import Any, get_args
 
 import pytest
 
-from softdepth.hdl.asked import asked
+from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.item_queue import ItemQueue
@@ -47,10 +47,7 @@ BLOCKS: dict[str, Callable[[], Any]] = {
 
 def core_latency() -> int:
     """Clocks from a pixel to the result that it completes."""
-    with asked():
-        latency = StereoCore(CORE).full_rate_latency
-    assert latency is not None
-    return latency
+    return BandLatency.of(CORE).full_rate
 
 
 LINE, ISLAND_LINE = 3, 4

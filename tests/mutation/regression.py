@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from softdepth.golden.fixed_model import disparity
 from softdepth.golden.front.pair import Image
 from softdepth.golden.maps import DisparityMap
-from softdepth.hdl.asked import asked
-from softdepth.hdl.core import StereoCore
+from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.signatures import Status, result_layout
 from softdepth.sim.trials import WAITS, Due, Trial
 from softdepth.spec.config import Config
@@ -197,11 +196,8 @@ def full_rate(config: Config, size: tuple[int, int], seed: int) -> Trial:
 @cache
 def last_clock(config: Config, width: int, pixels: int) -> int:
     """When the last result is there at the latest: nothing takes longer than a pixel's steps."""
-    with asked():
-        latency = StereoCore(config).full_rate_latency
-    assert latency is not None
     behind = config.reach_rows * width + config.reach_right
-    return (pixels - 1 + behind) * config.steps + latency
+    return (pixels - 1 + behind) * config.steps + BandLatency.of(config).full_rate
 
 
 def paused(config: Config, pauses: str, seed: int) -> Trial:

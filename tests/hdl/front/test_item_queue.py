@@ -1,12 +1,13 @@
 """ItemQueue: items pass unchanged and in order, one a clock, or one every other clock."""
 
+from itertools import pairwise
 from random import Random
 from typing import Any
 
 import pytest
 from amaranth.lib import data
 
-from softdepth.hdl.front.item_queue import ItemQueue, waiting_time
+from softdepth.hdl.front.item_queue import ItemQueue, places_for, waiting_time
 from tests.support.simulation import Transfers, stream_through
 
 LAYOUT = data.StructLayout({"number": 9, "noise": 24})
@@ -52,6 +53,12 @@ def test_one_item_a_clock_or_every_other(places: int) -> None:
     check(sent, result.payloads)
     assert result.taken == list(range(0, 50 * 2 // places, 2 // places))
     assert result.given == [clock + ItemQueue.latency for clock in result.taken]
+
+
+@pytest.mark.parametrize("clocks", [1, 2, 5])
+def test_places_are_enough(clocks: int) -> None:
+    result = run(items(40), places_for(clocks), o_every=clocks)
+    assert {b - a for a, b in pairwise(result.given)} == {clocks}
 
 
 @pytest.mark.parametrize("places", [1, 2])

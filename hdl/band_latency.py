@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from softdepth.hdl.asked import asked
 from softdepth.hdl.costs.band_costs import BandCosts
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.item_queue import waiting_time
-from softdepth.hdl.winners.rooms import band_winners
+from softdepth.hdl.memory.item_queue import waiting_time
+from softdepth.hdl.rooms import band_winners
 from softdepth.spec.config import Config
 
 

@@ -8,14 +8,13 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.built import check_built
 from softdepth.hdl.costs.bundle import join
-from softdepth.hdl.costs.rooms import costs_of
-from softdepth.hdl.front.front import Front
 from softdepth.hdl.left_pixels import LeftPixels
 from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.placed import Placed
 from softdepth.hdl.post.stages import post_stages
+from softdepth.hdl.rooms import costs_of, front_of, winners_of
 from softdepth.hdl.signatures import (
     STEERING,
     Status,
@@ -25,7 +24,6 @@ from softdepth.hdl.signatures import (
     thresholds_layout,
 )
 from softdepth.hdl.thresholds import told
-from softdepth.hdl.winners.rooms import winners_of
 from softdepth.hdl.winners.whole_winners import WholeWinners
 from softdepth.spec.config import Config
 
@@ -70,7 +68,7 @@ class StereoCore(wiring.Component):
         check_built(config)
         self._config, self._takes_settings = config, settings
         self._left = LeftPixels.of(config) if left else None
-        self._front = Front(
+        self._front = front_of(
             config, left=self._left.places if self._left and self._left.origin == "guard" else 0
         )
         with told(thresholds_layout(config)) if settings else nullcontext() as thresholds:

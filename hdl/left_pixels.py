@@ -6,7 +6,7 @@ from typing import Literal
 from softdepth.hdl.asked import asked
 from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.costs.comparison import by_windows
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.post.stages import masked_medians_of
 from softdepth.hdl.whole_latency import WholeLatency

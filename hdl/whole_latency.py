@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from softdepth.hdl.asked import asked
 from softdepth.hdl.costs.comparison import plan
-from softdepth.hdl.costs.rooms import costs_of, drain_of
+from softdepth.hdl.costs.layout import is_fraction
 from softdepth.hdl.costs.whole_costs import WholeCosts
 from softdepth.hdl.front.descriptors import descriptors_latency, window_reach
 from softdepth.hdl.front.frame_ends import FrameEnds
@@ -13,16 +13,16 @@ from softdepth.hdl.front.tall_window import TallWindow
 from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
-from softdepth.hdl.post.confidence import Confidence
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
-from softdepth.hdl.post.left_right import LeftRight
-from softdepth.hdl.post.sixteenths import Sixteenths
 from softdepth.hdl.post.stages import masked_medians_of, median_of
+from softdepth.hdl.rooms import costs_of, drain_of, front_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.winners.confidence import Confidence
+from softdepth.hdl.winners.left_right import LeftRight
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import number_latency
-from softdepth.hdl.winners.shapes import is_fraction
+from softdepth.hdl.winners.sixteenths import Sixteenths
 from softdepth.spec.config import Config
 from softdepth.spec.post import MEDIAN_REACH
 
@@ -103,7 +103,7 @@ class WholeLatency:
 
 def _up_to_winners(config: Config, ahead: int) -> int:
     steps, post = config.steps, config.post
-    costs = costs_of(config, Front(config).layout)
+    costs = costs_of(config, front_of(config).layout)
     assert isinstance(costs, WholeCosts)
     num, den = (costs.layout.members[name] for name in ("num", "den"))
     tree = ArgminTree(num, den, config.lanes)

@@ -12,8 +12,8 @@ from softdepth.hdl.axi.register_bank import RegisterBank, word_bits
 from softdepth.hdl.axi.tdata import bits_of, extended, outcome_layout
 from softdepth.hdl.axi.wishbone import Wishbone, wishbone
 from softdepth.hdl.core import StereoCore
-from softdepth.hdl.post.layout import is_measured
 from softdepth.hdl.signatures import Faults, Status, settings_layout, threshold_limits
+from softdepth.hdl.winners.layout import is_measured
 from softdepth.spec.axi_options import DEFAULT, AxiOptions
 from softdepth.spec.bus import Bus
 from softdepth.spec.config import Config

@@ -6,7 +6,7 @@ from amaranth.lib.cdc import ResetSynchronizer
 from amaranth.lib.fifo import AsyncFIFOBuffered, SyncFIFOBuffered
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 
 
 def view_layout(bits: int) -> data.StructLayout:

@@ -11,11 +11,11 @@ from softdepth.hdl.costs.lane import Lane, column_layout
 from softdepth.hdl.costs.near import near_lanes
 from softdepth.hdl.front.exclusion import Exclusion
 from softdepth.hdl.front.frame_guard import item_layout
-from softdepth.hdl.front.item_queue import ItemQueue, places_for
 from softdepth.hdl.front.line_buffer import LineBuffer
 from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.sequencer import Sequencer, tags_layout
 from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.item_queue import ItemQueue, places_for
 from softdepth.spec.config import Config
 
 

@@ -11,7 +11,7 @@ from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.cost import COSTS, fraction_layout
 from softdepth.hdl.costs.criteria import criteria_layout
 from softdepth.hdl.costs.criteria.sad import SadCriteria
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.signatures import pixel_layout
 from softdepth.spec.config import Config
 from softdepth.spec.registry import Registry

@@ -23,12 +23,11 @@ from softdepth.hdl.costs.whole_lane import (
     supports_layout,
 )
 from softdepth.hdl.front.exclusion import Exclusion
-from softdepth.hdl.front.item_queue import ItemQueue
 from softdepth.hdl.front.right_columns import RightColumns
 from softdepth.hdl.front.slots import Slots
-from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.delay import Delay, delayed
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.window import MARKERS
-from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.signatures import colour_size
 from softdepth.spec.config import Config
 

@@ -11,8 +11,8 @@ from softdepth.hdl.costs.criteria.row_box import RowBox
 from softdepth.hdl.costs.criteria.row_sum import RowSum
 from softdepth.hdl.costs.criteria.support import SupportMean, support_layout
 from softdepth.hdl.costs.criteria.unlikeness import GradientDifference, Hamming
+from softdepth.hdl.costs.layout import sum_layout
 from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.winners.shapes import sum_layout
 from softdepth.spec.config import Config
 
 

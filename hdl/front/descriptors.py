@@ -11,8 +11,9 @@ from softdepth.hdl.arithmetic.colour import coarse
 from softdepth.hdl.front.descriptor import COLOUR, Descriptor
 from softdepth.hdl.front.luma import Colour, Luma, rest_bits
 from softdepth.hdl.front.tall_window import TallWindow
+from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.memory.window import MARKERS, raster_layout
-from softdepth.hdl.post.stage import delayed, window_stage
+from softdepth.hdl.memory.window_stage import window_stage
 
 VIEWS = ("left", "right")
 

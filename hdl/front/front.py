@@ -4,20 +4,18 @@ from amaranth.hdl import Module, ResetSignal
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.costs.comparison import by_windows, plan
 from softdepth.hdl.front.descriptors import Descriptors
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.frame_guard import FrameGuard, item_layout
-from softdepth.hdl.front.item_queue import ItemQueue, places_for
 from softdepth.hdl.front.overlap import Overlap
-from softdepth.hdl.memory.folded_memory import clocks_of
+from softdepth.hdl.memory.item_queue import ItemQueue, places_for
 from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.signatures import STEERING, Faults, Status, pair_layout
 from softdepth.spec.config import Config
 
 
 class Front(wiring.Component):
-    """Mends frames, and says of each view's pixels what they are compared by.
+    """Mends frames and computes each view's descriptors.
 
     ::
 
@@ -29,7 +27,8 @@ class Front(wiring.Component):
 
     Parameters
     ----------
-    left : of how many items that have left the guard the left pixel is kept; of none unless set.
+    descriptors : what pixels are compared by; without them, their windows are compared as they are.
+    left : items whose left pixel is kept behind the guard; 0 keeps none.
 
     Members
     -------
@@ -45,13 +44,11 @@ class Front(wiring.Component):
     to_descriptors = ItemQueue.latency + FrameEnds.latency + ItemQueue.latency
     """Clocks from a pair to the descriptors' input."""
 
-    def __init__(self, config: Config, *, left: int = 0) -> None:
+    def __init__(self, config: Config, descriptors: Descriptors | None = None, *, left: int = 0) -> None:
         self._config, self._left = config, left
-        self.places = places_for(config.steps if by_windows(config) else 1)
-        self._descriptors = None if by_windows(config) else self._wanted()
-        self.layout: data.StructLayout = (
-            self._descriptors.layout if self._descriptors else item_layout(config)
-        )
+        self._descriptors = descriptors
+        self.places = places_for(1 if descriptors else config.steps)
+        self.layout: data.StructLayout = descriptors.layout if descriptors else item_layout(config)
         super().__init__(
             {
                 "i": In(stream.Signature(pair_layout(config.pixel))),
@@ -100,17 +97,3 @@ class Front(wiring.Component):
         wiring.connect(m, places.o, self._descriptors.i)
         wiring.connect(m, self._descriptors.o, wiring.flipped(self.o))
         return m
-
-    def _wanted(self) -> Descriptors:
-        """The descriptors that the criteria compare."""
-        pixel, needs = self._config.pixel, plan(self._config)
-        return Descriptors(
-            pixel.channels,
-            pixel.bits,
-            self._config.max_width,
-            colour_bits=pixel.bits if needs.has_support else self._config.colour_bits,
-            descriptors=tuple(needs.descriptors.values()),
-            rows=needs.rows,
-            after=needs.below,
-            clocks=clocks_of(self._config.steps),
-        )

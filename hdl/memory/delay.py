@@ -1,6 +1,6 @@
 """A delay counted in enabled clocks."""
 
-from amaranth.hdl import Module, Mux, ShapeLike, Signal
+from amaranth.hdl import Module, Mux, ShapeLike, Signal, Value
 from amaranth.lib import wiring
 from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
@@ -109,3 +109,21 @@ class Delay(wiring.Component):
             m.d.comb += [read.en.eq(1), shown.eq(Mux(self.en, following, written))]
             m.d.sync += written.eq(shown)
         return m
+
+
+def delayed(m: Module, value: Value, clocks: int, name: str) -> Value:
+    """``value`` after so many clocks, in registers without a reset."""
+    value = Value.cast(value)
+    for clock in range(1, clocks + 1):
+        register = Signal(value.shape(), name=f"{name}_{clock}", reset_less=True)
+        m.d.sync += register.eq(value)
+        value = register
+    return value
+
+
+def waiting(m: Module, value: Value, clocks: int, name: str) -> Value:
+    """``value`` after so many clocks, in distributed RAM: for many bits that wait for a long time."""
+    value = Value.cast(value)
+    m.submodules[f"waiting_{name}"] = wait = Delay(value.shape(), clocks, registers=False)
+    m.d.comb += [wait.en.eq(1), wait.i.eq(value)]
+    return wait.o

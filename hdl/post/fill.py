@@ -4,9 +4,9 @@ from amaranth.hdl import Module, Mux, Signal, unsigned
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.packed_queue import PackedQueue
-from softdepth.hdl.post.layout import is_measured, post_layout
+from softdepth.hdl.winners.layout import is_measured, post_layout
 from softdepth.spec.config import CONFIDENCE_BITS
 from softdepth.spec.validity import Validity
 

@@ -5,9 +5,10 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.popcount import popcount
+from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.memory.window import Window
-from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
-from softdepth.hdl.post.stage import delayed, window_stage
+from softdepth.hdl.memory.window_stage import window_stage
+from softdepth.hdl.winners.layout import is_measured, post_layout, without_markers
 from softdepth.spec.post import ISLAND_BITS
 from softdepth.spec.validity import Validity
 

@@ -9,13 +9,13 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.colour import alike
 from softdepth.hdl.arithmetic.pipeline import travelling
+from softdepth.hdl.memory.delay import delayed, waiting
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.memory.row_stack import RowStack
 from softdepth.hdl.memory.window import MARKERS
-from softdepth.hdl.post.layout import is_measured, post_layout
 from softdepth.hdl.post.rank import LowerMedian, median_latency
 from softdepth.hdl.post.slots import PostSlots
-from softdepth.hdl.post.stage import delayed, waiting
+from softdepth.hdl.winners.layout import is_measured, post_layout
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,11 @@ from amaranth.hdl import Cat, Module, Mux, Signal, Value
 from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
+from softdepth.hdl.memory.delay import waiting
 from softdepth.hdl.memory.window import Window
-from softdepth.hdl.post.layout import is_measured, post_layout, without_markers
+from softdepth.hdl.memory.window_stage import window_stage
 from softdepth.hdl.post.rank import LowerMedian
-from softdepth.hdl.post.stage import waiting, window_stage
+from softdepth.hdl.winners.layout import is_measured, post_layout, without_markers
 
 
 class Median(wiring.Component):

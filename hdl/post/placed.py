@@ -5,7 +5,7 @@ from amaranth.lib import data, stream, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.window import MARKERS
-from softdepth.hdl.post.layout import post_layout
+from softdepth.hdl.winners.layout import post_layout
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
 

@@ -5,8 +5,7 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.popcount import popcount
-from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.memory.delay import Delay, delayed
 
 SOON = 4
 """Clocks that a bit waits in registers."""

@@ -6,9 +6,9 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import Pipeline, travelling
 from softdepth.hdl.arithmetic.word import Word
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.costs.layout import is_fraction
+from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.winners.least_fraction import LeastFraction
-from softdepth.hdl.winners.shapes import is_fraction
 
 JOINED = 4
 """Lanes that are joined between two registers; at most one of them is not 0."""

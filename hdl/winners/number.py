@@ -5,7 +5,7 @@ from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.divide import divided
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.memory.delay import delayed
 from softdepth.spec.config import QUOTIENT_BITS
 
 

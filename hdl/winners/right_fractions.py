@@ -7,7 +7,7 @@ from amaranth.lib.memory import Memory
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.delay import Delay
 from softdepth.hdl.winners.argmin import FractionMin, candidate_layout, latency
-from softdepth.hdl.winners.shapes import right_winner_members
+from softdepth.hdl.winners.right_ports import right_winner_members
 from softdepth.hdl.winners.tournament import tournament, tournament_latency
 from softdepth.spec.ranges import COMPARISON_STEPS, right_parts
 

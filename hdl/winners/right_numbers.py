@@ -3,7 +3,7 @@
 from amaranth.hdl import Const, Module, Mux, Signal, Value
 from amaranth.lib import data, wiring
 
-from softdepth.hdl.winners.shapes import right_winner_members
+from softdepth.hdl.winners.right_ports import right_winner_members
 
 
 class RightNumbers(wiring.Component):

@@ -2,9 +2,9 @@
 
 from amaranth.lib import data
 
+from softdepth.hdl.costs.layout import is_fraction
 from softdepth.hdl.winners.right_fractions import RightFractions
 from softdepth.hdl.winners.right_numbers import RightNumbers
-from softdepth.hdl.winners.shapes import is_fraction
 
 
 def right_winner(lanes: int, steps: int, cost: data.StructLayout) -> RightNumbers | RightFractions:

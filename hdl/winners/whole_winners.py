@@ -6,21 +6,20 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.bundle import winner_ports
+from softdepth.hdl.costs.layout import is_fraction
 from softdepth.hdl.costs.whole_costs import tags_layout
-from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.delay import Delay, delayed
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.memory.window import MARKERS
-from softdepth.hdl.post.confidence import Confidence
-from softdepth.hdl.post.layout import post_layout
-from softdepth.hdl.post.left_right import LeftRight
-from softdepth.hdl.post.sixteenths import Sixteenths
-from softdepth.hdl.post.stage import delayed
 from softdepth.hdl.signatures import TOLERANCE_BITS
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
+from softdepth.hdl.winners.confidence import Confidence
+from softdepth.hdl.winners.layout import post_layout
+from softdepth.hdl.winners.left_right import LeftRight
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import Number, number_latency
 from softdepth.hdl.winners.right_winner import right_winner
-from softdepth.hdl.winners.shapes import is_fraction
+from softdepth.hdl.winners.sixteenths import Sixteenths
 from softdepth.spec.config import CONFIDENCE_BITS, Config
 from softdepth.spec.validity import Validity
 

@@ -12,7 +12,7 @@ from amaranth.hdl import Assert, Module, Signal, Value
 from amaranth.lib import data, stream
 from amaranth.lib.wiring import Component, In
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import ResultQueue
 from tests.support.claims import Claim
 from tests.support.proofs import every_run, late, pipeline_proof, proof

@@ -15,12 +15,13 @@ from softdepth.hdl.axi.core import AxiCore
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.front.frame_ends import FrameEnds
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
+from softdepth.hdl.rooms import front_of
 from softdepth.hdl.text.rtlil import to_rtlil
 from softdepth.spec.axi_options import AxiOptions
 from softdepth.spec.config import Config
@@ -131,7 +132,7 @@ def test_a_queue_listens_to_no_ready(places: int, tmp_path: Path) -> None:
 BLOCKS: dict[str, Callable[[], Component]] = {
     "frame ends": lambda: FrameEnds(small("whole frame")),
     "front": lambda: Front(small("band")),
-    "descriptors": lambda: Front(small("whole frame")),
+    "descriptors": lambda: front_of(small("whole frame")),
     "island": lambda: Island(1, 1, 8, 5, rows=2, columns=2),
     "fill": lambda: Fill(1, 1, 8),
     "median": lambda: Median(1, 1, 8, rows=2, columns=2),

@@ -9,13 +9,14 @@ from amaranth.lib.wiring import Component
 
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.packed_queue import PackedQueue
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.post.fill import Fill
 from softdepth.hdl.post.island import Island
 from softdepth.hdl.post.masked_medians import MaskedMedians
 from softdepth.hdl.post.median import Median
+from softdepth.hdl.rooms import front_of
 from softdepth.spec.config import Config
 from tests.support.behind_queue import BehindQueue
 from tests.support.claims import Claim
@@ -68,7 +69,7 @@ def winners(preset: str) -> Component:
 
 BLOCKS: dict[str, tuple[Callable[[], Component], type]] = {
     "front": (lambda: Front(Config.preset("sad").override(SMALL)), ItemQueue),
-    "descriptors": (lambda: Front(Config.preset("robust").override(SMALL)), ResultQueue),
+    "descriptors": (lambda: front_of(Config.preset("robust").override(SMALL)), ResultQueue),
     "winners": (lambda: winners("robust"), ResultQueue),
     "winners with a border band": (lambda: winners("sad"), ResultQueue),
     "island": (lambda: Island(1, 1, 8, 5, rows=2, columns=2), ResultQueue),

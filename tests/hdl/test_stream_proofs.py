@@ -16,7 +16,7 @@ import pytest
 from softdepth.hdl.band_latency import BandLatency
 from softdepth.hdl.core import StereoCore
 from softdepth.hdl.front.front import Front
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.post.fill import Fill

@@ -6,7 +6,7 @@ from amaranth.hdl import Module
 from amaranth.lib import stream
 from amaranth.lib.wiring import Component, In, Out
 
-from softdepth.hdl.front.item_queue import ItemQueue
+from softdepth.hdl.memory.item_queue import ItemQueue
 
 
 class BehindQueue(Component):

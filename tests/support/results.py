@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from softdepth.hdl.post.layout import post_layout
+from softdepth.hdl.winners.layout import post_layout
 from tests.support.simulation import stream_through
 
 Array = NDArray[np.int64]

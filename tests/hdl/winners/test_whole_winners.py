@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from amaranth.lib import data
 
-from softdepth.hdl.post.confidence import Confidence
-from softdepth.hdl.post.left_right import LeftRight
-from softdepth.hdl.post.sixteenths import Sixteenths
+from softdepth.hdl.costs.layout import sum_layout
+from softdepth.hdl.winners.confidence import Confidence
+from softdepth.hdl.winners.left_right import LeftRight
 from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import Number
 from softdepth.hdl.winners.right_winner import right_winner
-from softdepth.hdl.winners.shapes import sum_layout
+from softdepth.hdl.winners.sixteenths import Sixteenths
 from softdepth.spec.config import QUOTIENT_BITS, Config
 from tests.support.simulation import observe, piped
 

@@ -1,8 +1,7 @@
-"""How wide costs are behind the lanes: each is ``num / den``."""
+"""How wide a cost that is a sum is, and what is asked of any: each is ``num / den``."""
 
 from amaranth.hdl import Shape, unsigned
 from amaranth.lib import data
-from amaranth.lib.wiring import In, Member, Out
 
 
 def cost_bits(maximum: int) -> int:
@@ -18,16 +17,3 @@ def sum_layout(maximum: int) -> data.StructLayout:
 def is_fraction(cost: data.StructLayout) -> bool:
     """Whether a cost of this layout has a denominator."""
     return Shape.cast(cost.members["den"]).width > 0
-
-
-def right_winner_members(lanes: int, steps: int, cost: data.StructLayout) -> dict[str, Member]:
-    """The members of a component that finds the right view's winner; `RightNumbers` says what they mean."""
-    return {
-        "valid": In(1),
-        "first": In(1),
-        "last": In(1),
-        "step": In(range(steps)),
-        "costs": In(data.ArrayLayout(cost, lanes)),
-        "excluded": In(lanes),
-        "winner": Out(range(lanes * steps)),
-    }

@@ -5,7 +5,7 @@ from amaranth.lib import wiring
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.divide import divided
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.memory.delay import delayed
 
 FRACTION_BITS = 4
 QUOTIENT_BITS = FRACTION_BITS + 1

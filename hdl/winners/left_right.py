@@ -6,8 +6,7 @@ from amaranth.lib.memory import Memory
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.pipeline import travelling
-from softdepth.hdl.memory.delay import Delay
-from softdepth.hdl.post.stage import delayed
+from softdepth.hdl.memory.delay import Delay, delayed
 from softdepth.hdl.signatures import TOLERANCE_BITS
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from amaranth.lib import data
 
-from softdepth.hdl.front.item_queue import ItemQueue, places_for, waiting_time
+from softdepth.hdl.memory.item_queue import ItemQueue, places_for, waiting_time
 from tests.support.simulation import Transfers, stream_through
 
 LAYOUT = data.StructLayout({"number": 9, "noise": 24})

@@ -1,13 +1,12 @@
-"""What stages with a window have in common."""
+"""A window between two streams."""
 
 from collections.abc import Mapping
 
-from amaranth.hdl import Module, Signal, Value
-from amaranth.lib import data
+from amaranth.hdl import Module, Value
 from amaranth.lib.wiring import PureInterface
 
 from softdepth.hdl.arithmetic.pipeline import travelling
-from softdepth.hdl.memory.delay import Delay
+from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.memory.result_queue import ResultQueue
 from softdepth.hdl.memory.window import MARKERS, Window
 
@@ -52,26 +51,3 @@ def window_stage(
         queue.o.ready.eq(o.ready),
         o.payload.eq(queue.o.payload),
     ]
-
-
-def delayed(m: Module, value: Value, clocks: int, name: str) -> Value:
-    """``value`` after so many clocks, in registers without a reset."""
-    value = Value.cast(value)
-    for clock in range(1, clocks + 1):
-        register = Signal(value.shape(), name=f"{name}_{clock}", reset_less=True)
-        m.d.sync += register.eq(value)
-        value = register
-    return value
-
-
-def waiting(m: Module, value: Value, clocks: int, name: str) -> Value:
-    """``value`` after so many clocks, in distributed RAM: for many bits that wait for a long time."""
-    value = Value.cast(value)
-    m.submodules[f"waiting_{name}"] = wait = Delay(value.shape(), clocks, registers=False)
-    m.d.comb += [wait.en.eq(1), wait.i.eq(value)]
-    return wait.o
-
-
-def structured(layout: data.StructLayout, value: Value) -> data.View:
-    """Bits seen as a layout."""
-    return data.View(layout, value)

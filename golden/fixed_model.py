@@ -2,7 +2,8 @@
 
 For every pixel and candidate d, in exact integer arithmetic:
 
-1. Criteria ``s_1 .. s_3``: sums over their windows (`criteria.evaluate`).
+1. Criteria ``s_1 .. s_n``, one to three of them (three with fuzzy costs): how unlike the pixels around the
+   pixel and its partner are, as each kind sums it up (`costs.sad`, `costs.census`, `costs.gradient`).
 2. Compensating rule, if it is on and fires: all ``s_i`` are replaced (`criteria.compensate`).
 3. Memberships, labels at 0, T and 2T with ``T = 2**label_bits``, and ``one = 2**membership_bits``:
    ``u = min(s, 2T) >> (label_bits - membership_bits)``,
@@ -14,12 +15,12 @@ For every pixel and candidate d, in exact integer arithmetic:
 5. Cost ``N / S`` with ``N = sum Y_k * M_k`` and ``S = sum Y_k``; it is never divided.
    Where S is not above zero, the cost is infinite: N / S = 1 / 0, which no candidate with S > 0
    loses against.
-   Candidates are counted from `Config.min_disparity` on (`front.overlap`).
 6. Disparity: the d of the smallest cost, the smallest such d on a tie. A candidate beats the best
    so far when ``N * S_best < N_best * S``.
 
-`borders.validity_codes` and `candidates.Band` decide which candidates and pixels take part.
-With ``cost = "sad"`` steps 2 to 5 fall away: N is the first criterion, S is 1.
+`borders.validity_codes` and `candidates.Band` decide which candidates and pixels take part. Candidates are
+counted from `Config.min_disparity` on (`front.overlap`). What follows the winners is in `post.stages`.
+With ``cost = "sum"`` steps 2 to 4 fall away: N is the sum of all criteria, S is 1.
 """
 
 from dataclasses import dataclass
@@ -116,7 +117,7 @@ class Trace:
     Members
     -------
     first : the disparity of row 0.
-    criteria : candidates x criteria, the sums as measured.
+    criteria : candidates x criteria, as measured.
     inputs : the same after the compensating rule.
     memberships : candidates x criteria x 3, low to high.
     conclusions : candidates x 11, ``Y_1`` first.
@@ -128,7 +129,7 @@ class Trace:
     stages : the result after each stage of `post.stages`.
     disparity, code, confidence : the pixel's result.
 
-    Excluded candidates have no row: a border pixel has none at all. With ``cost = "sad"``
+    Excluded candidates have no row: a border pixel has none at all. With ``cost = "sum"``
     memberships and conclusions are empty.
     """
 

@@ -11,8 +11,6 @@ from softdepth.hdl.costs.bundle import join
 from softdepth.hdl.left_pixels import LeftPixels
 from softdepth.hdl.memory.kept import Kept
 from softdepth.hdl.post.island import Island
-from softdepth.hdl.post.masked_medians import MaskedMedians
-from softdepth.hdl.post.placed import Placed
 from softdepth.hdl.post.stages import post_stages
 from softdepth.hdl.rooms import costs_of, front_of, winners_of
 from softdepth.hdl.signatures import (
@@ -95,16 +93,12 @@ class StereoCore(wiring.Component):
         kept = self._front.kept if self._left and self._left.origin == "guard" else None
         for name, stage in self._post.items():
             m.submodules[name] = stage
-            if self._left and self._left.origin == "medians" and isinstance(stage, MaskedMedians):
+            if self._left and self._left.origin == name:
                 m.submodules.left = left = Kept(results.payload.shape(), "colour", self._left.places)
                 wiring.connect(m, results, left.i)
                 results, kept = left.o, left.kept
             wiring.connect(m, results, stage.i)
             results = stage.o
-        if self._config.min_disparity and isinstance(self._winners, WholeWinners):
-            m.submodules.placed = placed = Placed(self._config, results.payload.shape())
-            wiring.connect(m, results, placed.i)
-            results = placed.o
         if self._takes_settings:
             self._set(m)
         found, o = results.payload, self.o.payload

@@ -12,10 +12,8 @@ from softdepth.hdl.front.front import Front
 from softdepth.hdl.front.tall_window import TallWindow
 from softdepth.hdl.memory.folded_memory import clocks_of
 from softdepth.hdl.memory.result_queue import QUEUE_LATENCY
-from softdepth.hdl.memory.window import Window
-from softdepth.hdl.post.fill import Fill
-from softdepth.hdl.post.island import Island
-from softdepth.hdl.post.stages import masked_medians_of, median_of
+from softdepth.hdl.post.stage import StageTime
+from softdepth.hdl.post.stages import post_stages
 from softdepth.hdl.rooms import costs_of, drain_of, front_of
 from softdepth.hdl.winners.argmin import ArgminSequence, ArgminTree, candidate_layout
 from softdepth.hdl.winners.confidence import Confidence
@@ -24,7 +22,6 @@ from softdepth.hdl.winners.neighbours import Neighbours
 from softdepth.hdl.winners.number import number_latency
 from softdepth.hdl.winners.sixteenths import Sixteenths
 from softdepth.spec.config import Config
-from softdepth.spec.post import MEDIAN_REACH
 
 
 @dataclass(frozen=True)
@@ -38,13 +35,10 @@ class WholeLatency:
         where pixels come slowly and that result is a measurement.
     narrowest : pixels of the shortest line of which that is so. A line's last results come in a row, and
         those of a shorter one would meet the repeats of its first in a stage's window.
-    right, below, drain : slots of ``steps`` clocks that the core takes more than a frame has pixels:
-        beyond a line, lines below a frame, and behind it.
-    ahead : columns and rows that descriptors look ahead, which a frame takes more, and ``below``.
-    windows : rows and columns that the windows of the stages behind the winners reach: these take so many
-        lines more a frame, and twice as many slots more a line.
-    masked : rows and columns that the masked medians reach: they take so many lines more a frame, and slots
-        more a line.
+    right, below, drain : extra slots of ``steps`` clocks: after each line, in lines below the frame, and
+        after the frame.
+    ahead : columns and rows that descriptors look ahead; a frame takes longer by this and by ``below``.
+    stages : how long each stage behind the winners takes.
     """
 
     rows: int
@@ -55,8 +49,7 @@ class WholeLatency:
     below: int
     drain: int
     ahead: int
-    windows: tuple[tuple[int, int], ...]
-    masked: tuple[int, int]
+    stages: tuple[StageTime, ...]
 
     @classmethod
     def of(cls, config: Config) -> "WholeLatency":
@@ -70,7 +63,8 @@ class WholeLatency:
         # With the last pixel: repeats of its column, and what follows from windows that look ahead.
         in_a_row = 1 + post.island_reach[1] + (0 if post.check else ahead + reach.right)
         with asked():
-            clocks = _up_to_winners(config, ahead) + _behind(config)
+            stages = tuple(stage.time for stage in post_stages(config).values())
+            clocks = _up_to_winners(config, ahead) + sum(time.behind for time in stages)
         return cls(
             rows=reach.below + post.below + ahead + 1,
             column=column,
@@ -80,25 +74,18 @@ class WholeLatency:
             below=reach.below,
             drain=drain_of(config),
             ahead=ahead,
-            windows=(
-                *((post.island_reach,) if post.island else ()),
-                *(((MEDIAN_REACH, MEDIAN_REACH),) if post.median else ()),
-            ),
-            masked=post.masked_reach,
+            stages=stages,
         )
 
     def frame_clocks(self, width: int, height: int, steps: int) -> int:
         """From a frame's first pixel to the next one's, where pixels are always on offer.
 
         To within a line where a window behind the winners is the slowest, as it waits for what comes before.
-        At most so many where candidates do not begin at 0, whose columns are dropped a clock each.
+        An upper bound where candidates do not begin at 0: a column that is dropped takes only a clock.
         """
         costs = ((width + self.right) * (height + self.below) + self.drain) * steps
         front = (width + 2 * self.ahead) * (height + self.ahead + self.below) * clocks_of(steps)
-        windows = [(width + 2 * columns) * (height + rows) for rows, columns in self.windows]
-        rows, columns = self.masked
-        medians = (width + columns) * (height + rows) * min(steps, 2)
-        return max(costs, front, medians, *(slots * clocks_of(steps) for slots in windows))
+        return max(costs, front, *(time.frame_clocks(width, height) for time in self.stages))
 
 
 def _up_to_winners(config: Config, ahead: int) -> int:
@@ -122,22 +109,3 @@ def _up_to_winners(config: Config, ahead: int) -> int:
     row = (ahead + plan(config).right) * steps - FrameEnds.latency
     checked = LeftRight.latency if post.check else row
     return front + described + costs.latency + steps - 1 + judged + checked + QUEUE_LATENCY
-
-
-def _behind(config: Config) -> int:
-    """Of the stages behind the winners: a window's last columns are its last one repeated."""
-    post, folds = config.post, clocks_of(config.steps)
-
-    def window(columns: int, latency: int) -> int:
-        return columns * folds + Window.latency_of(folds) + latency + QUEUE_LATENCY
-
-    clocks = max(-config.min_disparity, 0)  # border results that follow
-    if post.island:
-        clocks += window(post.island_reach[1], Island.latency)
-    if post.fill:
-        clocks += Fill.latency
-    if post.median:
-        clocks += window(MEDIAN_REACH, median_of(config).latency)
-    if post.masked_median:
-        clocks += masked_medians_of(config).latency + QUEUE_LATENCY
-    return clocks

@@ -64,10 +64,11 @@ def run_frames(
     handed: Callable[[int, DisparityMap, float], None] | None = None,
     eof: bool = True,
 ) -> FramesResult:
-    """Simulate the core of `config` on stereo pairs (HxWx3 uint8 each), one after the other.
+    """Simulate the core of `config` on stereo pairs, one after the other.
 
     Parameters
     ----------
+    pairs : left and right image each, of ``config.pixel``'s format (`softdepth.golden.front.pair.Image`).
     verilog : the core's text; by default it is made from `config`.
     stalls : pauses at both ends; none by default.
     gap : idle clocks between frames.

@@ -41,11 +41,6 @@ class StreamResult(Record):
     seconds_sim: float
     cached: bool
 
-    @property
-    def clocks_per_second(self) -> float:
-        """Simulated clocks in a second of wall-clock time."""
-        return self.clocks / self.seconds_sim
-
 
 def run_stream(
     verilog: str,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from softdepth.golden.front.pair import Image, check_pair
 from softdepth.golden.maps import DisparityMap
-from softdepth.hdl.signatures import Status, pair_layout, result_layout
+from softdepth.hdl.signatures import pair_layout, result_layout
 from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.errors import ToolError
 
@@ -69,12 +69,6 @@ def _signed(results: NDArray[np.void], bits: int) -> NDArray[np.void]:
     sign = 1 << bits - 1
     found["disparity"] = (results["disparity"].astype(np.int32) ^ sign) - sign
     return found
-
-
-def unpack_status(word: int) -> dict[str, int]:
-    """The counters of the packed `Status` port."""
-    words = np.array(word, np.uint64)
-    return {name: int(unpack_field(Status, name, words)) for name, _ in Status}
 
 
 def split_frames(results: NDArray[np.void]) -> list[NDArray[np.void]]:

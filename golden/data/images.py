@@ -1,9 +1,9 @@
-"""Reading rectified stereo pairs from image files: `read_pair`, `read_joined`, `read_image`."""
+"""Reading rectified stereo pairs from image files: `read_pair`, `read_joined`."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -22,21 +22,6 @@ _LEAST_RANGE = 1 / 4
 """A pair that uses less of its range than this gets a note."""
 
 
-class ImageFile(NamedTuple):
-    """An image as `read_image` gives it.
-
-    Members
-    -------
-    pixels : H x W for gray, H x W x 3 for RGB; uint8 up to 8 bits, uint16 beyond.
-    notes : what was changed on the way in, one sentence each.
-    bits : bits a channel: white is ``2**bits - 1``.
-    """
-
-    pixels: np.ndarray
-    notes: tuple[str, ...]
-    bits: int
-
-
 def read_pair(
     left: str | Path, right: str | Path, name: str | None = None, *, bits: int | None = None
 ) -> StereoPair:
@@ -46,6 +31,9 @@ def read_pair(
     16-bit files state nothing; both are read with the 8, 10, 12, 14 or 16 bits into which the values of
     both fit, and a note says so. `bits` decides instead. Where the two files' depths differ, both get the
     larger. A gray file beside one of colours becomes RGB.
+
+    An alpha channel is dropped, CMYK becomes RGB, and of several pages the first is used, with a note for
+    each. An orientation tag is ignored: turning one view would undo the rectification.
 
     Raises
     ------
@@ -83,39 +71,7 @@ def read_joined(
     return _pair([first, replace(second, notes=())], name or _stem(path), bits)
 
 
-def read_image(path: str | Path, *, bits: int | None = None) -> ImageFile:
-    """Read one image file, its depth found as `read_pair` finds it.
-
-    An alpha channel is dropped, CMYK becomes RGB, and of several pages the first is used, with a note for
-    each. An orientation tag is ignored: turning one view would undo the rectification.
-
-    Raises
-    ------
-    InputError : a file that is missing, a folder, cut short, no image, too large, or not of integers.
-    """
-    images, notes, found = _bring_in([read_raster(path)], bits)
-    return ImageFile(images[0], notes, found)
-
-
-def _pair(rasters: Sequence[Raster], name: str, bits: int | None) -> StereoPair:
-    (left, right), notes, found = _bring_in(rasters, bits)
-    if left.ndim != right.ndim:
-        which = rasters[0 if left.ndim == 2 else 1].name
-        notes += (f"{which} is gray: its values are used for all three channels",)
-        left, right = (triple(image) if image.ndim == 2 else image for image in (left, right))
-    low, high = (int(extreme) for extreme in (min(left.min(), right.min()), max(left.max(), right.max())))
-    white = 2**found - 1
-    if high - low < _LEAST_RANGE * white:
-        notes += (
-            f"the pair uses the values {low} to {high} of 0 to {white}, less than a quarter of the range:"
-            f" say --bits N where the files hold fewer bits than {found}",
-        )
-    if np.array_equal(left, right):
-        notes += ("left and right are the same picture: every disparity is 0",)
-    return StereoPair(left, right, name, notes=notes, bits=found)
-
-
-def _bring_in(rasters: Sequence[Raster], bits: int | None) -> tuple[list[np.ndarray], tuple[str, ...], int]:
+def bring_in(rasters: Sequence[Raster], bits: int | None) -> tuple[list[np.ndarray], tuple[str, ...], int]:
     """Images of one depth, the notes about what was changed, and that depth in bits."""
     notes: list[str] = []
     plain: list[Raster] = []
@@ -136,6 +92,24 @@ def _bring_in(rasters: Sequence[Raster], bits: int | None) -> tuple[list[np.ndar
         values = rescale(raster.values, white, found)
         images.append(np.ascontiguousarray(values[:, :, 0] if values.shape[2] == 1 else values))
     return images, tuple(dict.fromkeys(notes)), found
+
+
+def _pair(rasters: Sequence[Raster], name: str, bits: int | None) -> StereoPair:
+    (left, right), notes, found = bring_in(rasters, bits)
+    if left.ndim != right.ndim:
+        which = rasters[0 if left.ndim == 2 else 1].name
+        notes += (f"{which} is gray: its values are used for all three channels",)
+        left, right = (triple(image) if image.ndim == 2 else image for image in (left, right))
+    low, high = (int(extreme) for extreme in (min(left.min(), right.min()), max(left.max(), right.max())))
+    white = 2**found - 1
+    if high - low < _LEAST_RANGE * white:
+        notes += (
+            f"the pair uses the values {low} to {high} of 0 to {white}, less than a quarter of the range:"
+            f" say --bits N where the files hold fewer bits than {found}",
+        )
+    if np.array_equal(left, right):
+        notes += ("left and right are the same picture: every disparity is 0",)
+    return StereoPair(left, right, name, notes=notes, bits=found)
 
 
 def _whites(rasters: Sequence[Raster], bits: int | None, notes: list[str]) -> tuple[list[int], int]:

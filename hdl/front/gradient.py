@@ -4,8 +4,6 @@ from amaranth.hdl import Cat, Const, Module, Mux, Shape, Signal, Value, unsigned
 from amaranth.lib import data, wiring
 from amaranth.lib.wiring import In, Out
 
-SOBEL = (1, 2, 1)
-
 
 class Gradient(wiring.Component):
     """Horizontal Sobel, held within +-``cap``. One window a clock.

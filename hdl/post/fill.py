@@ -6,6 +6,7 @@ from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.item_queue import ItemQueue
 from softdepth.hdl.memory.packed_queue import PackedQueue
+from softdepth.hdl.post.stage import PostStage, StageTime
 from softdepth.hdl.winners.layout import is_measured, post_layout
 from softdepth.spec.config import CONFIDENCE_BITS
 from softdepth.spec.validity import Validity
@@ -31,7 +32,7 @@ def _waiting_layout(colour_bits: int) -> data.StructLayout:
     )
 
 
-class Fill(wiring.Component):
+class Fill(PostStage):
     """Gives each result without a measurement the smaller of the row's nearest measurements left and right.
 
     Measured values wait in a queue of their own, with a mark after those of each row. The head of the queue,
@@ -51,6 +52,10 @@ class Fill(wiring.Component):
         self._layout = post_layout(value_bits, colour_bits)
         self._value_bits, self._colour_bits, self._max_width = value_bits, colour_bits, max_width
         super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
+
+    @property
+    def time(self) -> StageTime:
+        return StageTime(self.latency)
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

@@ -1,19 +1,20 @@
 """Takes back results that stand alone."""
 
 from amaranth.hdl import Module, Mux, Signal, Value
-from amaranth.lib import data, stream, wiring
+from amaranth.lib import data, stream
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.arithmetic.popcount import popcount
 from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.memory.window_stage import window_stage
+from softdepth.hdl.post.stage import PostStage, StageTime
 from softdepth.hdl.winners.layout import is_measured, post_layout, without_markers
 from softdepth.spec.post import ISLAND_BITS
 from softdepth.spec.validity import Validity
 
 
-class Island(wiring.Component):
+class Island(PostStage):
     """Turns a measurement into an island if the pixels around it, with itself, hold fewer than ``least``.
 
     The frame's edge is repeated. An island has value 0 and confidence 0; other results pass unchanged. One
@@ -54,6 +55,10 @@ class Island(wiring.Component):
                 "least": In(ISLAND_BITS, init=least),
             }
         )
+
+    @property
+    def time(self) -> StageTime:
+        return StageTime.of_window(self._rows, self._columns, self.clocks, self.latency)
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

@@ -10,11 +10,12 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.arithmetic.colour import alike
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.memory.delay import delayed, waiting
-from softdepth.hdl.memory.result_queue import ResultQueue
+from softdepth.hdl.memory.result_queue import QUEUE_LATENCY, ResultQueue
 from softdepth.hdl.memory.row_stack import RowStack
 from softdepth.hdl.memory.window import MARKERS
 from softdepth.hdl.post.rank import LowerMedian, median_latency
 from softdepth.hdl.post.slots import PostSlots
+from softdepth.hdl.post.stage import PostStage, StageTime
 from softdepth.hdl.winners.layout import is_measured, post_layout
 
 
@@ -26,7 +27,7 @@ class Samples:
     keep: Value
 
 
-class MaskedMedians(wiring.Component):
+class MaskedMedians(PostStage):
     """Replaces each value by a lower median in its row, then by one in its column; the rest is unchanged.
 
     Of ``columns`` pixels on either side, or of every ``spacing``-th of them, and of ``rows`` above and below,
@@ -252,9 +253,9 @@ class MaskedMedians(wiring.Component):
         return queue
 
     @property
-    def latency(self) -> int:
-        """Clocks from a line's last pixel to when the line's last result can be in the queue."""
-        return self._columns * self.clocks + self._after_slot()
+    def time(self) -> StageTime:
+        behind = self._columns * self.clocks + self._after_slot() + QUEUE_LATENCY
+        return StageTime(behind, self._rows, self._columns, self.clocks)
 
     @property
     def _shared(self) -> bool:

@@ -1,17 +1,18 @@
 """Medians over a window of results."""
 
 from amaranth.hdl import Cat, Module, Mux, Signal, Value
-from amaranth.lib import data, stream, wiring
+from amaranth.lib import data, stream
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.delay import waiting
 from softdepth.hdl.memory.window import Window
 from softdepth.hdl.memory.window_stage import window_stage
 from softdepth.hdl.post.rank import LowerMedian
+from softdepth.hdl.post.stage import PostStage, StageTime
 from softdepth.hdl.winners.layout import is_measured, post_layout, without_markers
 
 
-class Median(wiring.Component):
+class Median(PostStage):
     """Replaces each value by the lower median of its window; code and confidence stay.
 
     The frame's edge is repeated. With ``holes``, results without a measurement are left out and stay as they
@@ -46,6 +47,10 @@ class Median(wiring.Component):
         self.latency = 1 + self._median.latency
         """From the window to its result in `window_stage`."""
         super().__init__({"i": In(stream.Signature(self._layout)), "o": Out(stream.Signature(self._layout))})
+
+    @property
+    def time(self) -> StageTime:
+        return StageTime.of_window(self._rows, self._columns, self.clocks, self.latency)
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

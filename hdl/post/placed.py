@@ -1,10 +1,11 @@
 """Puts the results of the columns in which the views overlap into the whole frame."""
 
 from amaranth.hdl import Module, Mux, Shape, Signal
-from amaranth.lib import data, stream, wiring
+from amaranth.lib import data, stream
 from amaranth.lib.wiring import In, Out
 
 from softdepth.hdl.memory.window import MARKERS
+from softdepth.hdl.post.stage import PostStage, StageTime
 from softdepth.hdl.winners.layout import post_layout
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
@@ -16,7 +17,7 @@ def placed_layout(config: Config) -> data.StructLayout:
     return data.StructLayout(members | {"value": Shape(config.result_bits, signed=config.signed)})
 
 
-class Placed(wiring.Component):
+class Placed(PostStage):
     """Adds `Config.min_disparity` to each value, and border results for the columns beside the overlap.
 
     Border results come before a line's results if `Config.min_disparity` is positive, and after them if it
@@ -33,6 +34,10 @@ class Placed(wiring.Component):
         super().__init__(
             {"i": In(stream.Signature(layout)), "o": Out(stream.Signature(placed_layout(config)))}
         )
+
+    @property
+    def time(self) -> StageTime:
+        return StageTime(max(-self._config.min_disparity, 0))  # border results that follow a line's last one
 
     def elaborate(self, platform: object) -> Module:
         m = Module()

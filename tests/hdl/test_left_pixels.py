@@ -35,7 +35,7 @@ CORES: dict[str, tuple[str, Config]] = {
     "windows": ("guard", Config.preset("sad").override(SIZE)),
     "results": ("results", Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=0"])),
     "medians": (
-        "medians",
+        "masked_medians",
         Config.preset("robust-small").override([*WHOLE, FINE, "post.masked_median=1", "lanes=2"]),
     ),
     "overlap": (

@@ -13,7 +13,6 @@ from softdepth.spec.registry import Registry
 from softdepth.spec.soft import Table, soft_min_1_table, soft_min_2_table
 
 Integers = NDArray[np.signedinteger[Any]]
-Conclude = Callable[[Sequence[Memberships]], Any]
 
 
 def minimum(a: Integers, b: Integers) -> Integers:

@@ -23,17 +23,18 @@ def compare(
 ) -> None:
     """Compare the hardware with the float model, and sweep its number formats."""
     sweepable = choice.configuration()
-    from softdepth import files as results
+    from softdepth.files import result_folder
     from softdepth.run import measure
     from softdepth.studies.compare import comparison, sweep
+    from softdepth.studies.compare import output as results
 
     sweep.check_sweepable(sweepable)
-    source.keep_safe(output, (*comparison.FILES, comparison.LAST), choice.config)
+    source.keep_safe(output, (*results.FILES, results.LAST), choice.config)
     pair, chosen = source.read_for(choice)
-    with results.result_folder(output, stale=comparison.FILES, last=comparison.LAST) as folder:
+    with result_folder(output, stale=results.FILES, last=results.LAST) as folder:
         measurement = measure.measure(pair, chosen, engine, also=measure.COMPARED)
         found = comparison.compare(pair, chosen, measurement)
-        comparison.write(folder, pair, chosen, measurement, found)
-    comparison.show(found)
+        results.write(folder, pair, chosen, measurement, found)
+    results.show(found)
     print(f"results: {output}")
     run.fail_on_mismatch(pair, chosen, measurement)

@@ -1,4 +1,4 @@
-"""Families that yosys maps to and that nothing here places: how much of a part a netlist takes."""
+"""Families that cores are only mapped to, not placed: how much of a part a netlist takes."""
 
 import json
 import re
@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from softdepth.flow.families import FAMILIES, part_of
 from softdepth.flow.synthesis import JOIN, SCOPE, TOP
 from softdepth.flow.tools import find_tool
+from softdepth.spec.boards import BOARDS, Board
 from softdepth.spec.errors import ToolError
 
 
@@ -36,7 +38,7 @@ class OtherFamily:
     Members
     -------
     title : as its vendor calls it.
-    command : yosys' synthesis.
+    command : yosys' synthesis of a design called `TOP`.
     lut, ram, dsp : what the vendor calls a look-up table, a block RAM and a multiplier.
     ram_kbit : bits of a block RAM, parity included.
     cells : what a cell takes, by a pattern of its whole name. Dedicated wiring takes nothing.
@@ -66,12 +68,18 @@ class OtherFamily:
         )
 
 
+def _command_of(board: Board) -> str:
+    """The command that synthesises for a board's part."""
+    family = FAMILIES[board.family]
+    return " ".join((family.synthesis(TOP), *family.synthesis_options(part_of(board))))
+
+
 _LUT, _FF, _RAM, _DSP, _WIRING = Taken(lut=1), Taken(ff=1), Taken(ram=1), Taken(dsp=1), Taken()
 
 OTHER_FAMILIES = {
     "7-series": OtherFamily(
         title="AMD 7-series",
-        command="synth_xilinx -family xc7 -noiopad -noclkbuf",
+        command=f"synth_xilinx -top {TOP} -family xc7 -noiopad -noclkbuf",
         lut="LUT6",
         ram="RAMB18",
         dsp="DSP48E1",
@@ -89,7 +97,7 @@ OTHER_FAMILIES = {
     ),
     "gowin": OtherFamily(
         title="Gowin GW2A",
-        command="synth_gowin -family gw2a -noiopads",
+        command=_command_of(BOARDS["tangnano20k"]),
         lut="LUT4",
         ram="BSRAM",
         dsp="MULT18X18",
@@ -106,7 +114,7 @@ OTHER_FAMILIES = {
     ),
     "nexus": OtherFamily(
         title="Lattice Nexus",
-        command="synth_nexus -family lifcl",
+        command=f"synth_nexus -top {TOP} -family lifcl",
         lut="LUT4",
         ram="EBR",
         dsp="MULT18X18",
@@ -132,8 +140,7 @@ def synthesised(rtlil: str, family: OtherFamily) -> dict[str, int]:
     with tempfile.TemporaryDirectory(prefix="softdepth-") as name:
         folder = Path(name)
         (folder / "design.il").write_text(rtlil)
-        command = f"{family.command} -top {TOP}"
-        script = f"read_rtlil design.il; {command}; {JOIN}; tee -q -o cells.json stat -json"
+        script = f"read_rtlil design.il; {family.command}; {JOIN}; tee -q -o cells.json stat -json"
         find_tool("yosys").run(["-q", "-l", "yosys.log", "-p", script], folder, log="yosys.log")
         found = json.loads((folder / "cells.json").read_text())["design"]["num_cells_by_type"]
     return {kind: count for kind, count in found.items() if kind != SCOPE}

@@ -1,105 +1,156 @@
 """``python -m softdepth.studies.boards_page OUT``: the default cores of all boards, in docs/flow.md.
 
-OUT holds a folder for each board, as `softdepth build` makes them. If a board has none, its row stays as it
-is, provided that it is for the board's own core.
+OUT holds a folder for each board, as `softdepth build` makes them. The figures of a board that has none there
+stay as they are in docs/boards.json, provided that they are of the board's own core.
 """
 
+import json
 import sys
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
+from typing import Self
+
+from pydantic import BaseModel
 
 from softdepth.ending import ended
 from softdepth.files import write_atomically
 from softdepth.flow.bitstream import MANIFEST, Manifest
 from softdepth.flow.route import WORDS
 from softdepth.spec.boards import BOARDS, Board
-from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 from softdepth.studies import markers
 from softdepth.templates import render
 
 DOCUMENT = Path("docs/flow.md")
+JSON = Path("docs/boards.json")
 PART = "boards"
 
 RESOURCES = tuple(dict.fromkeys(WORDS.values()))
 """What a user counts, a column each; a family has most of them."""
 
 
-def page(manifests: dict[Board, Manifest], kept: Mapping[str, str] | None = None) -> str:
-    """The table: a row a board, with what its default core takes of the part and how fast it is.
+class Core(BaseModel):
+    """The part on a board and its default core, as far as the table shows them."""
 
-    Rows of other boards, `kept` by the board's name, stand between them.
-    """
-    builds = []
-    for board, manifest in manifests.items():
-        builds.append(
-            {
-                "board": board,
-                "manifest": manifest,
-                "config": Config.from_dict(manifest.config),
-                "core": _core(board, Config.from_dict(manifest.config)),
-                "used": [_used(manifest, resource) for resource in RESOURCES],
-                "suffix": Path(manifest.bitstream).suffix,
-            }
+    device: str
+    preset: str
+    disparities: int
+    lanes: int
+    width: int
+    height: int
+
+    @classmethod
+    def of(cls, board: Board) -> Self:
+        """A board's own."""
+        config = board.config
+        return cls(
+            device=board.device,
+            preset=config.name,
+            disparities=config.disparities,
+            lanes=config.lanes,
+            width=config.max_width,
+            height=config.max_height,
         )
-    head, line, *rows = render(
-        "softdepth.studies", "boards.md", resources=RESOURCES, builds=builds
-    ).splitlines()
-    of = dict(kept or {}) | {row.split("`")[1]: row for row in rows}
-    return "\n".join([head, line, *(of[name] for name in BOARDS if name in of)])
 
 
-def _core(board: Board, config: Config) -> str:
-    """The first cells of a board's row: which core its figures belong to."""
-    core = f"`{config.name}`, {config.disparities} disparities, lanes = {config.lanes}"
-    return f"| `{board.name}` | {board.device} | {core} | {config.max_width} x {config.max_height} |"
+class Usage(BaseModel):
+    """How many of a resource a core takes, and how many the part has."""
+
+    used: int
+    available: int
 
 
-def _used(manifest: Manifest, resource: str) -> str:
-    """How many of a resource the core takes, out of how many."""
-    words = (word for word, name in WORDS.items() if name == resource and word in manifest.usage)
-    count = manifest.usage.get(next(words, ""))
-    return f"{count['used']:,} of {count['available']:,}" if count else "-"
+class Row(BaseModel):
+    """A row of the table: what a board's core takes of the part, and how fast it is.
+
+    Members
+    -------
+    usage : by the words of `RESOURCES`, those that the family has.
+    suffix : the bitstream's.
+    """
+
+    board: str
+    core: Core
+    usage: dict[str, Usage]
+    wanted_mhz: float
+    fmax_mhz: float
+    suffix: str
+
+    @classmethod
+    def of(cls, board: Board, manifest: Manifest) -> Self:
+        """That of a build of the board's own core."""
+        usage: dict[str, Usage] = {}
+        for word, resource in WORDS.items():
+            if word in manifest.usage:
+                usage.setdefault(resource, Usage.model_validate(manifest.usage[word]))
+        return cls(
+            board=board.name,
+            core=Core.of(board),
+            usage=usage,
+            wanted_mhz=manifest.wanted_mhz,
+            fmax_mhz=manifest.fmax_mhz,
+            suffix=Path(manifest.bitstream).suffix,
+        )
+
+    @property
+    def mpixel_s(self) -> float:
+        """Million pixels a second at the board's clock."""
+        return self.wanted_mhz * self.core.lanes / self.core.disparities
 
 
-def kept_rows(table: str) -> dict[str, str]:
-    """The rows of a table that are for boards' own cores, by the board's name."""
-    starts = {board.name: _core(board, board.config) for board in BOARDS.values()}
-    return {
-        name: row for row in table.splitlines() for name, start in starts.items() if row.startswith(start)
-    }
+def page(rows: Iterable[Row]) -> str:
+    """The table, a row a board."""
+    return render("softdepth.studies", "boards.md", resources=RESOURCES, rows=rows)
 
 
-def manifests(folder: Path, kept: Container[str] = ()) -> dict[Board, Manifest]:
-    """The manifest of each board's build, except for missing ones whose rows are `kept`.
+def load(project: Path) -> dict[str, Row]:
+    """By the board's name, the rows that are there of boards' own cores; those of earlier cores are out."""
+    try:
+        rows = [Row.model_validate(row) for row in json.loads((project / JSON).read_text())["rows"]]
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+    return {row.board: row for row in rows if row.board in BOARDS and row.core == Core.of(BOARDS[row.board])}
+
+
+def measured(folder: Path, kept: Container[str] = ()) -> dict[str, Row]:
+    """The row of each board's build, by the board's name, except for missing ones whose rows are `kept`.
 
     Raises `InputError` if another is missing, or if one is for another core.
     """
-    found: dict[Board, Manifest] = {}
+    found: dict[str, Row] = {}
     for board in BOARDS.values():
-        if board.name in kept and not (folder / board.name / MANIFEST).exists():
-            continue
         path = folder / board.name / MANIFEST
+        if board.name in kept and not path.exists():
+            continue
         remedy = f"run: make bitstream BOARD={board.name}"
         try:
-            manifest = found[board] = Manifest.model_validate_json(path.read_text())
+            manifest = Manifest.model_validate_json(path.read_text())
         except (OSError, ValueError) as error:
             raise InputError(f"'{path}' cannot be read: {error}", remedy) from error
         if manifest.config_hash != board.config.hash:
             raise InputError(f"'{path}' is not for the {board.name}'s default core", remedy)
+        found[board.name] = Row.of(board, manifest)
     return found
 
 
-def main(folder: Path, project: Path) -> None:
-    """Renew the table in `project` from the builds in `folder`."""
+def write(project: Path, found: Mapping[str, Row]) -> None:
+    """Write the rows into `project`: the table, and the file for `load`."""
     path = project / DOCUMENT
     try:
         text = path.read_text()
     except OSError as error:
         raise InputError(f"'{path}' cannot be read: {error}", "run this in the project's folder") from error
-    kept = kept_rows(text)
-    text = markers.renew(text, str(DOCUMENT), PART, page(manifests(folder, kept), kept))
+    rows = [found[name] for name in BOARDS]
+    text = markers.renew(text, str(DOCUMENT), PART, page(rows))
+    figures = {"rows": [row.model_dump() for row in rows]}
+    write_atomically(project / JSON, (json.dumps(figures, indent=1) + "\n").encode())
     write_atomically(path, text.encode())
+
+
+def main(folder: Path, project: Path) -> None:
+    """Renew the table in `project` from the builds in `folder`."""
+    kept = load(project)
+    write(project, kept | measured(folder, kept))
 
 
 if __name__ == "__main__":

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from softdepth.cli.app import main
-from softdepth.golden.data.images import read_image
 from softdepth.golden.data.pair import StereoPair
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.writers import write_pfm, write_picture
 from tests.cli.recording import record
+from tests.support.images import read_image
 
 
 @dataclass(frozen=True)

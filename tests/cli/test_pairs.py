@@ -12,12 +12,12 @@ import pytest
 from PIL import Image
 
 from softdepth.golden import fixed_model
-from softdepth.golden.data.images import read_image
 from softdepth.golden.data.synthetic import generate
 from softdepth.golden.data.truth import read_truth
 from softdepth.golden.data.writers import write_pfm
 from softdepth.spec.config import Config
 from softdepth.spec.validity import Validity
+from tests.support.images import read_image
 
 SMALL = ("--disparities", 16, "--lanes", 4, "--preset", "sad", "--engine", "fixed")
 

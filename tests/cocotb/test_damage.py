@@ -11,9 +11,10 @@ from softdepth.sim import damage
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Stalls
 from softdepth.sim.stream import StreamResult, run_stream
-from softdepth.sim.transfers import Payloads, pack_frame, split_frames, to_maps, unpack_results, unpack_status
+from softdepth.sim.transfers import Payloads, pack_frame, split_frames, to_maps, unpack_results
 from softdepth.spec.config import Config
 from tests.cocotb.scenes import textured
+from tests.support.counters import unpack_status
 
 HEIGHT, WIDTH = 14, 33
 CONFIG = Config.preset("paper").override(["disparities=8", "lanes=2", "max_width=48", "max_height=40"])

@@ -37,3 +37,16 @@ def test_middlebury_with_every_operator(exact: Exact, data_dir: Path, operator: 
     pairs = [load(f"middlebury:{scene}") for scene in ("teddy", "cones", "venus")]
     config = Config.preset("paper").override([f"operator={operator}", "lanes=4"])
     exact(config, [(pair.left, pair.right) for pair in pairs])
+
+
+@pytest.mark.full
+@pytest.mark.slow
+@pytest.mark.middlebury
+def test_teddy_in_gray_of_12_bits_from_below_0(exact: Exact, data_dir: Path) -> None:
+    """Winners of both signs: 7 in 100 of Teddy's are below 0, wrongly, and the gateware's are the same."""
+    pair = load("middlebury:teddy").as_format("gray12")
+    keys = ("pixel=gray12", "min_disparity=-8", *(f"criteria.{k}.label_bits=12" for k in range(3)))
+    result = exact(Config.preset("lite").override(keys), [(pair.left, pair.right)])
+    found = result.maps[0]
+    assert found.disparity.shape == pair.left.shape
+    assert found.disparity[found.valid].min() == -8

@@ -18,11 +18,12 @@ from softdepth.hdl.winners import whole_winners
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Stalls
 from softdepth.sim.stream import run_stream
-from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results, unpack_status
+from softdepth.sim.transfers import pack_frame, split_frames, to_maps, unpack_results
 from softdepth.spec.config import OPERATORS, Config
 from tests.cocotb.conftest import Exact
 from tests.cocotb.scenes import noise, random_whole_config, textured, whole_frames_for
 from tests.cocotb.test_damage import CASES, no_start
+from tests.support.counters import unpack_status
 
 ROBUST = Config.preset("robust").override(["disparities=8", "lanes=4", "max_width=64", "max_height=64"])
 PAIRS = [textured(14, 33, 1), noise(6, 20, 2), textured(3, 4, 3), textured(1, 5, 4), textured(9, 12, 5)]

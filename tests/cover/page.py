@@ -6,7 +6,9 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from softdepth.templates import render
 from tests.cover.counts import Found, Point
 from tests.cover.functional import Bin
 
@@ -60,34 +62,26 @@ def page(
     measured: str,
 ) -> str:
     """What was reached by core and room, what was not, with the reason, and bins of the plan."""
-    absent = sorted(set(plan) - set(hit))
-    lines = [
-        f"{measured}.",
-        "",
-        f"| core | what | {' | '.join(room or 'core itself' for room in ROOMS)} | all |",
-        f"|---|---|{'---:|' * (len(ROOMS) + 1)}",
-        *(
-            f"| {core} | {KINDS[kind]} | {_row(kind, each)} |"
+    return render(
+        "tests.cover",
+        "page.md",
+        measured=measured,
+        rooms=ROOMS,
+        reached=[
+            (core, title, _by_room([one for one in each if one.point.kind == kind]))
             for core, each in found.items()
-            for kind in KINDS
-        ),
-        "",
-        "Not reached:",
-        "",
-        "| core | where | how many | why |",
-        "|---|---|---:|---|",
-        *_unreached(missed(found, said)),
-        "",
-        f"The suite's random runs reach {len(plan) - len(absent)} of the {len(plan)} bins of the plan."
-        f" Left out are: {'; '.join(', '.join(each) for each in absent)}.",
-    ]
-    return "\n".join(lines)
+            for kind, title in KINDS.items()
+        ],
+        unreached=_unreached(missed(found, said)),
+        plan=plan,
+        absent=sorted(set(plan) - set(hit)),
+    )
 
 
-def _row(kind: str, found: Sequence[Found]) -> str:
-    points = [each for each in found if each.point.kind == kind]
+def _by_room(points: Sequence[Found]) -> list[str]:
+    """The share that is reached in each room, and of all."""
     rooms = [[each for each in points if each.point.room == room] for room in ROOMS]
-    return " | ".join(_share(each) for each in (*rooms, points))
+    return [_share(each) for each in (*rooms, points)]
 
 
 def _share(found: Sequence[Found]) -> str:
@@ -98,12 +92,15 @@ def _share(found: Sequence[Found]) -> str:
     return f"{1000 * reached // len(found) / 10:.1f}% of {len(found):,}"
 
 
-def _unreached(by_reason: Missed) -> Iterator[str]:
+def _unreached(by_reason: Missed) -> Iterator[dict[str, Any]]:
+    """For each reason which cores and places it is of, and of how many points."""
     for reason, points in by_reason.items():
-        cores = ", ".join(dict.fromkeys(core for core, _ in points))
-        places = sorted({_place(point) for _, point in points})
-        shown = ", ".join(f"`{place}`" for place in places[:3]) + (", ..." if len(places) > 3 else "")
-        yield f"| {cores} | {shown} | {len(points)} | {reason or 'not explained'} |"
+        yield {
+            "cores": list(dict.fromkeys(core for core, _ in points)),
+            "places": sorted({_place(point) for _, point in points}),
+            "count": len(points),
+            "reason": reason,
+        }
 
 
 def _place(point: Point) -> str:

@@ -1,8 +1,9 @@
 """The study of faults as a part of docs/verification.md."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
+from softdepth.templates import render
 from tests.mutation.study import Outcome
 
 PART = "mutation"
@@ -23,47 +24,33 @@ def rate(outcomes: Sequence[Outcome]) -> float:
 def page(found: Mapping[str, Sequence[Outcome]], measured: str) -> str:
     """What was found by core and room, and each fault that was not, with the reason."""
     everything = [outcome for outcomes in found.values() for outcome in outcomes]
-    missed = [(name, each) for name, outcomes in found.items() for each in outcomes if not each.killed]
-    lines = [
-        f"{len(everything)} faults, of which {sum(each.killed for each in everything)} are found"
-        f" ({rate(everything):.1%}). {measured}.",
-        "",
-        f"| core | {' | '.join(room or 'several rooms' for room in ROOMS)} | found |",
-        f"|---|{'---:|' * (len(ROOMS) + 1)}",
-        *(_row(name, outcomes) for name, outcomes in found.items()),
-        "",
-        f"How they were noticed: {', '.join(_by_what(everything))}.",
-        "",
-        f"The {len(missed)} that are not found:",
-        "",
-        "| core | block | line | fault | why |",
-        "|---|---|---|---|---|",
-        *(
-            f"| {name} | {each.mutant.block or 'of several'} | {_code(each.mutant.code)} | {each.mutant.what}"
-            f" | {KINDS[each.kind]}{': ' if each.reason else ''}{each.reason} |"
-            for name, each in missed
-        ),
-    ]
-    return "\n".join(lines)
+    return render(
+        "tests.mutation",
+        "page.md",
+        measured=measured,
+        everything=everything,
+        rate=rate,
+        rooms=ROOMS,
+        cores=[(name, _by_room(outcomes), rate(outcomes)) for name, outcomes in found.items()],
+        noticed=_by_what(everything),
+        missed=[(name, each) for name, outcomes in found.items() for each in outcomes if not each.killed],
+        kinds=KINDS,
+    )
 
 
-def _row(name: str, outcomes: Sequence[Outcome]) -> str:
+def _by_room(outcomes: Sequence[Outcome]) -> list[str]:
     rooms = []
     for room in ROOMS:
         there = [each for each in outcomes if each.mutant.room == room]
         rooms.append(f"{sum(each.killed for each in there)} of {len(there)}" if there else "-")
-    return f"| {name} | {' | '.join(rooms)} | {rate(outcomes):.1%} |"
+    return rooms
 
 
-def _by_what(outcomes: Sequence[Outcome]) -> Iterator[str]:
+def _by_what(outcomes: Sequence[Outcome]) -> list[tuple[str, int]]:
+    """What was wrong, whichever the number, and how often, the most frequent first."""
     kinds = Counter(
         " ".join(word for word in each.wrong.split() if not word.isdigit())
         for each in outcomes
         if each.killed
     )
-    return (f"{what} ({count})" for what, count in kinds.most_common())
-
-
-def _code(code: str) -> str:
-    """A line in a cell of a table."""
-    return f"`{code.replace('|', chr(92) + '|')}`" if code else "-"
+    return kinds.most_common()

@@ -69,7 +69,6 @@ def test_measures_the_core_and_not_its_filling(config: Config, stand_in: DesignO
     )
     assert blocked.latency > 190
     assert steady.pixels_per_second > 0
-    assert steady.stream.clocks_per_second > steady.pixels_per_second
 
 
 def test_gaps_lie_between_the_frames(config: Config, stand_in: DesignOf) -> None:

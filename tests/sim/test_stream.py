@@ -10,9 +10,10 @@ import pytest
 from softdepth.sim.job import Job
 from softdepth.sim.stalls import Pauses, Stalls
 from softdepth.sim.stream import StreamResult, run_stream
-from softdepth.sim.transfers import Payloads, pack_frame, unpack_results, unpack_status
+from softdepth.sim.transfers import Payloads, pack_frame, unpack_results
 from softdepth.spec.config import Config
 from softdepth.spec.errors import ToolError
+from tests.support.counters import unpack_status
 
 LINES, WIDTH = 9, 12
 PIXELS = LINES * WIDTH

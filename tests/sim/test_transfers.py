@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from softdepth.hdl.signatures import Status, pair_layout, result_layout
-from softdepth.sim.transfers import RESULT, pack_frame, split_frames, to_maps, unpack_results, unpack_status
+from softdepth.hdl.signatures import pair_layout, result_layout
+from softdepth.sim.transfers import RESULT, pack_frame, split_frames, to_maps, unpack_results
 from softdepth.spec.config import Config, PixelFormat
 from softdepth.spec.errors import InputError, ToolError
 
@@ -41,11 +41,6 @@ def test_unpacks_every_field_of_a_result(preset: str) -> None:
         expected = layout.from_bits(word)
         fields = {name: expected[name] for name, _ in layout}
         assert {name: int(result[name]) for name in RESULT.names or ()} == {"confidence": 0} | fields
-
-
-def test_unpacks_the_counters() -> None:
-    counters = {"short_lines": 1, "long_lines": 500, "early_starts": 0, "missing_starts": 65535}
-    assert unpack_status(Status.const(counters).as_bits()) == counters
 
 
 def raster(height: int, width: int) -> np.ndarray:

@@ -13,7 +13,8 @@ from softdepth.spec.errors import InputError
 from softdepth.spec.operators import REGISTRY
 from softdepth.studies import markers
 from softdepth.studies.compare import tables
-from softdepth.studies.compare.comparison import LAST, Comparison
+from softdepth.studies.compare.comparison import Comparison
+from softdepth.studies.compare.output import LAST
 from softdepth.studies.compare.sweep import MEMBERSHIP_BITS, TOLERANCE
 from softdepth.studies.readme import shrink
 from softdepth.templates import render

@@ -1,30 +1,27 @@
 """A comparison as Markdown."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
+from softdepth.studies.compare.comparison import Comparison
 from softdepth.studies.compare.sweep import TOLERANCE, Point
 from softdepth.templates import render
-
-if TYPE_CHECKING:
-    from softdepth.studies.compare.comparison import Comparison
 
 PAPER_LABEL = 5000
 """The float model's label, as in the paper."""
 
 
-def title(found: "Comparison") -> str:
+def title(found: Comparison) -> str:
     """Pair, preset and operator."""
     return f"{found.pair}, {found.config['name']}, {found.config['operator']}"
 
 
-def common_label(found: "Comparison") -> int | None:
+def common_label(found: Comparison) -> int | None:
     """The label bits that all criteria of the compared configuration share, or None."""
     labels = {criterion["label_bits"] for criterion in found.config["criteria"]}
     return labels.pop() if len(labels) == 1 else None
 
 
-def sentence(found: "Comparison") -> str:
+def sentence(found: Comparison) -> str:
     """The result against the float model, in one sentence."""
     a = found.agreement
     who = "gateware" if found.engine == "rtl" else "fixed model"
@@ -34,7 +31,7 @@ def sentence(found: "Comparison") -> str:
     )
 
 
-def enough(found: "Comparison") -> list[str]:
+def enough(found: Comparison) -> list[str]:
     """Which widths are enough, a line per label; nothing where the truth is unknown."""
     if found.metrics["float"].bad1 is None:
         return []
@@ -49,7 +46,7 @@ def enough(found: "Comparison") -> list[str]:
     ] + [f"(enough: at most {TOLERANCE} percentage points more bad pixels, > 1 px, than the float model)"]
 
 
-def page(found: "Comparison") -> str:
+def page(found: Comparison) -> str:
     """The whole comparison: summary, then one table of formats per question."""
     text = render(
         "softdepth.studies",
@@ -63,7 +60,7 @@ def page(found: "Comparison") -> str:
     return text + "\n"
 
 
-def figures(found: "Comparison") -> dict[str, Callable[[Point], float | None]]:
+def figures(found: Comparison) -> dict[str, Callable[[Point], float | None]]:
     """The tables of a comparison: heading, and what is read from a point."""
     shown: dict[str, Callable[[Point], float | None]] = {
         f"RMSE to the float model with T = {PAPER_LABEL}, px": lambda p: p.to_float.rmse,
@@ -76,7 +73,7 @@ def figures(found: "Comparison") -> dict[str, Callable[[Point], float | None]]:
 
 
 def table(
-    many: "list[Comparison]", figure: Callable[[Point], float | None]
+    many: list[Comparison], figure: Callable[[Point], float | None]
 ) -> tuple[list[str], list[list[str]]]:
     """`figure` by membership bits and label, the mean over some comparisons: the head, and the rows."""
     first = many[0].sweep

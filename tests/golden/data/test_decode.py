@@ -11,9 +11,10 @@ import pytest
 from PIL import Image
 
 from softdepth.golden.data.decode import quiet
-from softdepth.golden.data.images import read_image, read_pair
+from softdepth.golden.data.images import read_pair
 from softdepth.golden.data.truth import read_truth
 from softdepth.spec.errors import InputError
+from tests.support.images import read_image
 
 
 @pytest.mark.parametrize(

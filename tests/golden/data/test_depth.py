@@ -6,10 +6,11 @@ import cv2
 import numpy as np
 import pytest
 
-from softdepth.golden.data.images import read_image, read_joined, read_pair
+from softdepth.golden.data.images import read_joined, read_pair
 from softdepth.golden.data.pair import StereoPair, rescale
 from softdepth.spec.errors import InputError
 from tests.golden.conftest import save
+from tests.support.images import read_image
 
 
 def write_netpbm(path: Path, values: np.ndarray, white: int, header: str = "{}\n{} {}\n{}\n") -> Path:

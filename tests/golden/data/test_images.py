@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from softdepth.golden.data.decode import MAX_SIDE
-from softdepth.golden.data.images import read_image, read_pair
+from softdepth.golden.data.images import read_pair
 from softdepth.golden.data.pair import StereoPair
 from softdepth.spec.errors import InputError
 from tests.golden.conftest import save
+from tests.support.images import read_image
 
 
 @pytest.mark.parametrize("suffix", [".png", ".ppm", ".tiff"])

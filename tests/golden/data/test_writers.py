@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from softdepth.files import write_atomically
-from softdepth.golden.data.images import read_image
 from softdepth.golden.data.truth import read_truth
 from softdepth.golden.data.writers import write_disparity_png, write_pfm, write_picture
 from softdepth.spec.errors import InputError
+from tests.support.images import read_image
 
 MAP = np.array([[0, 1, 2.5], [63, 200, 255]], np.float32)
 VALID = np.array([[True, True, False], [True, False, True]])

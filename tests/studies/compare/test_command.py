@@ -11,7 +11,8 @@ from softdepth.golden.data.truth import read_truth
 from softdepth.spec.config import Config
 from softdepth.studies.compare import comparison
 from softdepth.studies.compare.agreement import agreement
-from softdepth.studies.compare.comparison import FILES, Comparison, estimate
+from softdepth.studies.compare.comparison import Comparison, estimate
+from softdepth.studies.compare.output import FILES
 from softdepth.studies.compare.sweep import formats
 from tests.studies.compare.conftest import point
 from tests.support.simulator import simulate_with_faults

@@ -11,7 +11,8 @@ from softdepth.spec.config import Config
 from softdepth.spec.errors import InputError
 from softdepth.studies.compare import document
 from softdepth.studies.compare.agreement import Agreement, agreement
-from softdepth.studies.compare.comparison import FILES, Comparison
+from softdepth.studies.compare.comparison import Comparison
+from softdepth.studies.compare.output import FILES
 from softdepth.studies.compare.sweep import Label, Point, Sweep
 from softdepth.studies.markers import markers, renew
 from tests.project.test_documents import table_keys

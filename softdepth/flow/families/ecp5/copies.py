@@ -5,7 +5,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
-from softdepth.flow.netlist import FLIP_FLOP, Netlist, Nets
+from softdepth.flow.families.ecp5.nets import FLIP_FLOP, Nets
+from softdepth.flow.netlist import Netlist
 
 LOAD = 128
 """Most that reads one flip-flop: a clock enable or a reset counts 1, any other input `APART`."""

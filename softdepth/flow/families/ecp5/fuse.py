@@ -10,7 +10,8 @@ from functools import cache
 from itertools import permutations, product
 from typing import Any
 
-from softdepth.flow.netlist import Bit, Netlist, Nets
+from softdepth.flow.families.ecp5.nets import Nets
+from softdepth.flow.netlist import Bit, Netlist
 
 PINS = "ABCD"
 MAX_PASSES = 4

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from softdepth.flow.netlist import Bit, Netlist, Nets
+from softdepth.flow.families.ecp5.nets import Nets
+from softdepth.flow.netlist import Bit, Netlist
 
 MULTIPLIER = "MULT18X18D"
 OPERANDS = [f"{operand}{k}" for operand in "AB" for k in range(18)]

@@ -1,6 +1,7 @@
 """Moves the flip-flops behind an ECP5 block RAM into it."""
 
-from softdepth.flow.netlist import Cell, Netlist, Nets
+from softdepth.flow.families.ecp5.nets import Nets
+from softdepth.flow.netlist import Cell, Netlist
 
 OUTPUTS = 18
 """Data outputs of a port."""

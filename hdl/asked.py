@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def asked() -> Iterator[None]:
-    """Amaranth would say, when Python comes to free its cycles, that components were not used."""
+    """Silences Amaranth's warning that components were never used, until Python has freed them."""
     from amaranth.hdl import UnusedElaboratable
 
     with warnings.catch_warnings():

@@ -14,9 +14,9 @@ _TOLD: ContextVar[Mapping[str, Signal] | None] = ContextVar("told", default=None
 
 @contextmanager
 def told(layout: data.StructLayout) -> Iterator[dict[str, Signal]]:
-    """Components that are made within look at signals of these shapes for their thresholds, by name.
+    """Components that are made inside take their thresholds from signals of these shapes, by name.
 
-    Who makes the core drives them, and changes them while no frame is inside.
+    Whoever makes the core drives these signals, and changes them only while no frame is inside.
     """
     signals = {name: Signal(shape, name=name) for name, shape in layout.members.items()}
     token = _TOLD.set(signals)

@@ -12,7 +12,7 @@ def coarse(colour: Value, channels: int, kept: int) -> Value:
 
 
 def coarse_like(like: Value | int, dropped: int) -> Value | int:
-    """What colours without their ``dropped`` lowest bits must differ by in order to differ by ``like``."""
+    """``like`` as a limit for colours without their ``dropped`` lowest bits, rounded up."""
     return (like + (1 << dropped) - 1) >> dropped if dropped else like
 
 

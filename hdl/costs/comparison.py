@@ -41,7 +41,8 @@ class Comparison:
     dx : columns from the pixel to the window's centre, to the right.
     spacing, taps, like : of a support: its columns, and which colours count; ``taps`` is 0 without one.
     own_shift : bits by which the value is shifted above the sum.
-    limit : of its differences, if a register may set it (`softdepth.hdl.thresholds`).
+    limit : of its differences, if a register may set it (`softdepth.hdl.thresholds`); ``block`` takes it by
+        this name.
     running : sums down the columns are kept; one row enters and one leaves.
     lags : how far above the newest row those lie that are compared, ascending: for a running sum the one that
         enters and the one that leaves, else all that are summed; set by `plan`.
@@ -90,7 +91,8 @@ class Comparison:
 
     def differences(self) -> wiring.Component:
         """A block that compares two descriptors."""
-        return self.block(*self.parameters)
+        limit = {} if self.limit is None else {"limit": self.limit}
+        return self.block(*self.parameters, **limit)
 
 
 COMPARISONS: Registry[Callable[[Any, PixelFormat], Comparison]] = Registry("criterion's comparison")

@@ -10,20 +10,15 @@ from amaranth.lib.wiring import In, Out
 from softdepth.hdl.arithmetic.pipeline import travelling
 from softdepth.hdl.costs.cost import COSTS, fraction_layout
 from softdepth.hdl.costs.criteria import criteria_layout
+from softdepth.hdl.costs.criteria.criterion import CriterionBlock
 from softdepth.hdl.costs.criteria.sad import SadCriteria
 from softdepth.hdl.memory.delay import delayed
 from softdepth.hdl.signatures import pixel_layout
 from softdepth.spec.config import Config
 from softdepth.spec.registry import Registry
 
-CRITERIA: Registry[Callable[[Config, list[Any]], Any]] = Registry("criterion's gateware")
-"""The component that computes each kind of criterion. All of a kind in a lane share one.
-
-It has the ports of `SadCriteria`. Its ``left`` and ``right`` may have any number of the column's rows, down
-to the newest row in its own support; its ``o`` comes `latency` clocks later, for the pixel
-`Config.window_right` columns before the one that entered. ``coming`` and ``place`` announce a column
-`look_ahead` clocks early, for components that keep something in memory; `look_ahead` defaults to 0.
-"""
+CRITERIA: Registry[Callable[[Config, list[Any]], CriterionBlock]] = Registry("criterion's gateware")
+"""The block that computes each kind of criterion; all of a kind in a lane share one."""
 
 CRITERIA.register("sad", SadCriteria)
 
@@ -52,7 +47,7 @@ class Lane(wiring.Component):
             kind: CRITERIA[kind](config, [c for c in config.criteria if c.kind == kind])
             for kind in sorted({c.kind for c in config.criteria})
         }
-        self.look_ahead = max(getattr(block, "look_ahead", 0) for block in self._criteria.values())
+        self.look_ahead = max(block.look_ahead for block in self._criteria.values())
         self.criteria_latency = max(block.latency for block in self._criteria.values())
         self.latency = self.criteria_latency + self._cost.latency
         super().__init__(
@@ -101,6 +96,6 @@ class Lane(wiring.Component):
     def _announced(self, m: Module, kind: str) -> list[Any]:
         """Statements that announce the coming columns to a kind's criteria, as early as these want it."""
         block = self._criteria[kind]
-        late = self.look_ahead - getattr(block, "look_ahead", 0)
+        late = self.look_ahead - block.look_ahead
         coming = travelling(m, self.coming, late, f"{kind}_coming")[-1]
         return [block.coming.eq(coming), block.place.eq(delayed(m, self.place, late, f"{kind}_place"))]

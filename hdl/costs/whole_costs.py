@@ -277,9 +277,7 @@ class WholeCosts(wiring.Component):
             ]
 
     def _centre(self, m: Module, colour: Value, enters: Value) -> Value:
-        """What goes on of the colour of the pixel that is judged, from a clock after its slot's columns, for
-        all steps.
-        """
+        """The judged pixel's colour in `Config.colour_bits`, from a clock after its slot's columns on."""
         colour = coarse(colour, self._channels, self._config.colour_bits)
         m.submodules.colours = colours = Delay(len(colour), self._plan.right)
         centre = Signal(len(colour), name="centre", reset_less=True)

@@ -10,7 +10,7 @@ from softdepth.hdl.costs.cost import FuzzyCost, fraction_layout
 from softdepth.hdl.costs.criteria.row_box import RowBox
 from softdepth.hdl.costs.criteria.row_sum import RowSum
 from softdepth.hdl.costs.criteria.support import SupportMean, support_layout
-from softdepth.hdl.costs.criteria.unlikeness import GradientDifference, Hamming
+from softdepth.hdl.costs.criteria.unlikeness import Hamming
 from softdepth.hdl.costs.layout import sum_layout
 from softdepth.hdl.memory.delay import Delay
 from softdepth.spec.config import Config
@@ -94,8 +94,6 @@ class LaneDifferences(wiring.Component):
             for place, lag in enumerate(comparison.lags):
                 row = row_of(comparison.field, lag)
                 m.submodules[f"row_{lag}_{k}"] = difference = comparison.differences()
-                if isinstance(difference, GradientDifference) and comparison.limit is not None:
-                    difference.truncation = comparison.limit
                 m.d.comb += [
                     difference.a.eq(self.left[row]),
                     difference.b.eq(self.right[row]),

@@ -225,5 +225,5 @@ class Slots(wiring.Component):
 
     @staticmethod
     def _at(x: Signal, column: int, returns: Value) -> Value:
-        """Whether the column that follows ``x`` is this one, and not the line's first unless that is."""
+        """Whether the next column is this one; ``returns`` says that the next is a line's first."""
         return returns if column == 0 else ~returns & (x == column - 1)

@@ -22,8 +22,8 @@ class ResultQueue(wiring.Component):
     ----------
     shape : of a result.
     latency : clocks from a promise to its `put`.
-    unseen : results that may begin after their credit was seen, or before their promises are, where the way
-        is long: there is credit as long as there are places for these too.
+    unseen : results that may begin while credit, or the promises of others, are still on their way: places
+        are kept free for these.
 
     Members
     -------

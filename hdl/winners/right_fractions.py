@@ -18,10 +18,10 @@ class RightFractions(wiring.Component):
     A right pixel's best candidate so far waits in distributed RAM for its next candidate. In the same lane,
     that comes ``steps - 1`` steps later. If this is time enough, all candidates follow each other as in
     `RightNumbers`. With fewer steps, a right pixel has several bests, each among a part of its candidates
-    (`right_parts`). A part has the candidates of the same step in every lane, where the next comes
-    ``steps**2`` steps later, or in one of every few lanes, where it comes a multiple of that later. At the
-    end the best of these is found; of equal ones, that with the smallest index. A later candidate never
-    replaces an equal one.
+    (`right_parts`). A part has the candidates of the same step in every lane, of which the next comes
+    ``steps**2`` steps later, or only in every n-th lane, of which it comes n times later. At the end the best
+    of the parts is found; of equal ones, that with the smallest index. A later candidate never replaces an
+    equal one.
 
     Parameters and members are those of `RightNumbers`, except for
     latency : clocks from a slot's first step to its winner, which is held until the next.

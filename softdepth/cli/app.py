@@ -32,7 +32,7 @@ from softdepth.spec.errors import InputError
 
 app = typer.Typer(
     name="softdepth",
-    help="Stereo depth for FPGAs by fuzzy inference: run it, measure it, export it as Verilog.",
+    help="Stereo depth for FPGAs: run it, measure it, export it as Verilog.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

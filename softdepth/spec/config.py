@@ -122,11 +122,6 @@ class Config(Settings):
         return self.disparities // self.lanes
 
     @property
-    def disparity_bits(self) -> int:
-        """Bits of a candidate's number, ``0 .. disparities - 1``."""
-        return (self.disparities - 1).bit_length()
-
-    @property
     def windows(self) -> tuple[int, ...]:
         """The distinct SAD window sizes, ascending."""
         return tuple(sorted({c.window for c in self.sads}))
@@ -224,10 +219,9 @@ class Config(Settings):
     @property
     def column_rows(self) -> int:
         """Rows that lanes get of a column, the newest last: as far up as any criterion compares anew."""
-        above = [c.rows_above - c.reach_rows for c in self.criteria if not isinstance(c, Sad)]
-        if self.sads:  # they share their columns
-            above.append(max(c.reach_rows for c in self.sads) - self.stored_rows)
-        return self.reach_rows + 1 + max(above)
+        kinds = {type(c) for c in self.criteria}
+        above = max(kind.rows_above([c for c in self.criteria if type(c) is kind]) for kind in kinds)
+        return self.reach_rows + 1 + above
 
     @property
     def places(self) -> int:

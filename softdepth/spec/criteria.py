@@ -1,5 +1,6 @@
 """The criteria of a configuration, and what each says about itself."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, PlainValidator, SerializeAsAny, model_validator
@@ -63,10 +64,10 @@ class AnyCriterion(Frozen):
         """Factors that turn the sum of 1, 2, ... columns into their mean; several are a table in memory."""
         return ()
 
-    @property
-    def rows_above(self) -> int:
-        """Rows above its support's newest that are compared anew, without those that it remembers."""
-        return 2 * self.reach_rows
+    @classmethod
+    def rows_above(cls, criteria: Sequence[Self]) -> int:
+        """Rows above the pixel's own that these, all of this kind, compare anew and do not remember."""
+        return max(c.reach_rows for c in criteria)
 
     def maximum_of(self, pixel: PixelFormat) -> int:
         """The largest value of pixels of this format; the smallest is 0."""
@@ -123,10 +124,10 @@ class Sad(AnyCriterion):
         """Rows above it, and below."""
         return self.radius
 
-    @property
-    def rows_above(self) -> int:
-        """The window's rows, without those from memory."""
-        return self.window - 1 - self.stored_rows
+    @classmethod
+    def rows_above(cls, criteria: Sequence[Self]) -> int:
+        """Those of the largest window, without the rows from memory: windows share their columns."""
+        return max(c.radius for c in criteria) - max(c.stored_rows for c in criteria)
 
     def maximum_of(self, pixel: PixelFormat) -> int:
         """The sum where all pixels differ as much as they can."""

@@ -74,7 +74,7 @@ def run_core(core: Config, script: Any) -> None:
 
     async def bench(ctx: SimulatorContext, rst: Signal) -> None:
         ctx.set(dut.width, WIDTH)
-        await script(Bench(ctx, dut, result_bytes(core)), dut, ctx, core.disparity_bits)
+        await script(Bench(ctx, dut, result_bytes(core)), dut, ctx, core.result_bits)
 
     simulate(dut, bench)
 

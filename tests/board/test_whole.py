@@ -196,7 +196,7 @@ def test_the_boards_side_of_the_protocol(raw: Raw, config: Config):
     assert [int.from_bytes(row[:2], "little") for row in rows] == [0, 1, 2, 3]
     flat = np.zeros((4, 8, 3), np.uint8)
     expected = fixed_model.disparity(flat, flat, config).mirrored()
-    words = expected.disparity | expected.code.astype(np.uint16) << config.disparity_bits
+    words = expected.disparity | expected.code.astype(np.uint16) << config.result_bits
     assert [list(row[2:]) for row in rows] == words.tolist()
     # with the frame out, the next may begin
     assert raw.reply(Type.BEGIN, 12, size).type == REPLY | Type.BEGIN

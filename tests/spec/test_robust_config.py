@@ -36,7 +36,7 @@ def test_a_robust_core_has_a_result_in_every_pixel():
     config = Config.preset("robust")
     assert config.whole_frame
     assert (config.min_width, config.min_height) == (4, 1)
-    assert (config.code_bits, config.disparity_bits, config.result_bits) == (3, 6, 10)
+    assert (config.code_bits, config.result_bits) == (3, 10)
     kinds = [{"kind": "census"}, {"kind": "gradient"}, {"window": 5, "dx": 1}]
     mixed = Config.from_dict({"criteria": kinds})
     assert not mixed.whole_frame

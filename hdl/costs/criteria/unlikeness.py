@@ -50,19 +50,24 @@ class Hamming(wiring.Component):
 class GradientDifference(wiring.Component):
     """``min(|a - b|, truncation)``; ``neutral`` without a partner, 0 outside the frame. One a clock.
 
+    Parameters
+    ----------
+    limit : a signal that stands for ``truncation``; it may change and is never greater.
+
     Members
     -------
-    truncation : the parameter, unless it is set to a signal, which may change and is never greater.
     a, b : gradients of this shape.
     absent, inside, o : as in `Hamming`.
     """
 
     latency = 2
 
-    def __init__(self, shape: Shape, largest: int, truncation: int, neutral: int) -> None:
+    def __init__(
+        self, shape: Shape, largest: int, truncation: int, neutral: int, *, limit: Value | None = None
+    ) -> None:
         self._neutral, self._largest = neutral, largest
         self.maximum = max(min(truncation, largest), neutral)
-        self.truncation: Value | int = truncation
+        self._truncation = truncation if limit is None else limit
         super().__init__(
             {
                 "a": In(shape),
@@ -82,8 +87,8 @@ class GradientDifference(wiring.Component):
         folded = bits ^ top.replicate(len(bits))
         magnitude = folded + top
         cut: Value = magnitude
-        if not isinstance(self.truncation, int) or self.truncation < self._largest:
-            cut = Mux(magnitude >= self.truncation, self.truncation, magnitude)
+        if not isinstance(self._truncation, int) or self._truncation < self._largest:
+            cut = Mux(magnitude >= self._truncation, self._truncation, magnitude)
         held = Signal(range(self.maximum + 1), reset_less=True)
         m.d.sync += held.eq(Mux(self.inside, Mux(self.absent, self._neutral, cut), 0))
         m.d.comb += self.o.eq(held)

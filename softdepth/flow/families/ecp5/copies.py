@@ -9,7 +9,7 @@ from softdepth.flow.families.ecp5.nets import FLIP_FLOP, Nets
 from softdepth.flow.netlist import Netlist
 
 LOAD = 128
-"""Most that reads one flip-flop: a clock enable or a reset counts 1, any other input `APART`."""
+"""The largest load of a flip-flop: each clock enable or reset counts 1, each other input `APART`."""
 
 APART = 4
 """Flip-flops that stand together have a clock enable and a reset in common, but no other input."""

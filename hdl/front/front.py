@@ -22,8 +22,9 @@ class Front(wiring.Component):
         i > frame guard > queue > (frame ends > overlap > descriptors) > o
 
     Windows of pixels are compared as they are; criteria that need descriptors get them, with the frame's
-    edges repeated, and those of the views' overlap where candidates do not begin at 0. During reset no
-    pixel is taken: ``i.ready`` is low.
+    edges repeated, and those of the views' overlap where candidates do not begin at 0. It takes a pixel a
+    clock, or one every `Config.steps` clocks where that is how fast the room behind takes them; repeats hold
+    the input back. During reset no pixel is taken: ``i.ready`` is low.
 
     Parameters
     ----------

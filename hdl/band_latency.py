@@ -33,8 +33,12 @@ class BandLatency:
     def of(cls, config: Config) -> "BandLatency":
         """Derived from what the core's blocks state."""
         with asked():
-            front, costs = Front(config), BandCosts(config)
-            winners = band_winners(config, costs)
+            return cls._of_blocks(config)
+
+    @classmethod
+    def _of_blocks(cls, config: Config) -> "BandLatency":
+        front, costs = Front(config), BandCosts(config)
+        winners = band_winners(config, costs)
         idle = Front.latency + BandCosts.waits + winners.latency
         queues = front.places, costs.places
         full_rate = idle + sum(waiting_time(places, config.steps) for places in queues)
